@@ -1,0 +1,1 @@
+//! Benchmarks: import, carve, offset, fill, codec, whole slice.

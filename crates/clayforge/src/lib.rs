@@ -1,0 +1,1 @@
+//! The facade: table of stages, pipeline, profiles, drawing.

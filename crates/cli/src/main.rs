@@ -1,0 +1,2 @@
+//! The command `clayforge`.
+fn main() {}

@@ -1,0 +1,42 @@
+//! The two documents that flow between the stages, and what a stage is.
+//!
+//! * [`Slices`]: the loops of each layer. Its text is the SVG that carve writes and preface reads.
+//! * [`Skein`]: a list of [`Line`]s; line *i* in memory is line *i* + 1 of the text. Its text is tagged G-code.
+//!
+//! A stage is its settings with one method, [`Stage::craft`]. It sees its document and its own settings and nothing
+//! else: no files, no clock, no environment. Whatever a later stage must know rides in the document as a typed
+//! [`Facts`] entry. Every quantity is an integer of its last printed decimal, so reading undoes writing and a chain
+//! run in memory gives the bytes of a chain of Unix filters.
+
+mod document;
+mod error;
+mod facts;
+mod line;
+mod machine;
+mod notes;
+mod nozzle;
+#[doc(hidden)]
+pub mod settings;
+
+mod slices;
+mod stage;
+mod svg;
+mod verify;
+
+pub use error::{Error, Place};
+pub use facts::{Bead, Facts, Section};
+pub use line::{Feature, Line, Mark, Move, Reader, Side, Tag};
+pub use machine::{Bed, BedShape, EUnit, Machine, Origin};
+pub use notes::{Note, Notes};
+pub use nozzle::{Nozzle, Span, boundary, spans};
+pub use settings::{Choice, Field, Kind, Setting, SettingError, Settings, Value};
+pub use document::{Layer, Signature, Skein};
+pub use skein_derive::{Choice, Settings};
+pub use slices::{RotatedLoopLayer, Slices};
+pub use stage::{Craft, Stage};
+
+pub use shape::{Point, Point3, Ring};
+pub use unit::{Angle, Direction, Extrusion, Feed, Micron, Ratio};
+
+// The derive names this crate by its outside name.
+extern crate self as skein;

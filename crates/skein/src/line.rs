@@ -1,0 +1,459 @@
+//! A line of the skein, its printer and its reader side by side.
+
+use crate::Error;
+use shape::Point3;
+use unit::{Direction, Extrusion, Feed, Micron, Ratio};
+
+/// One line of the tagged G-code. Whatever is not known is [`Line::Verbatim`] and passes through every stage.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Line {
+    /// `G1 X Y Z F E`: a straight move to a place.
+    Move(Move),
+    /// `(<boundaryPoint> X Y Z </boundaryPoint>)` and its kin: a point of an outline.
+    Point(Mark, Point3),
+    /// `M101`: clay flows from here.
+    On,
+    /// `M103`: clay stops.
+    Off,
+    /// `M108 S1.0`: from here a bead has so much of its nominal section.
+    Flow(Ratio),
+    /// `(<layer> 0.75 )`: a layer begins; the height of its middle.
+    Layer(Micron),
+    /// `(<thickness> 1.2 </thickness>)`: this layer is not as high as the header says.
+    Thickness(Micron),
+    /// `(<edge> outer )` or `(<loop> inner )`: a wall begins.
+    Wall(Tag, Side),
+    /// `(<rotation> (1+0j) )` or `(<bridgeRotation> (1+0j) )`: the direction of infill.
+    Rotation(Tag, Direction),
+    /// `(<infill>)`: a block begins.
+    Open(Tag),
+    /// `(</infill>)`: a block ends.
+    Close(Tag),
+    /// `(<layerHeight> 1.5 </layerHeight>)`: a named value.
+    Value(Box<(Box<str>, Box<str>)>),
+    /// Anything else, to the byte.
+    Verbatim(Box<str>),
+}
+
+/// A straight move. Every move carries all three coordinates; feed and extrusion only where a stage has set them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Move {
+    /// Where it ends.
+    pub to: Point3,
+    /// How fast, if said.
+    pub feed: Option<Feed>,
+    /// What it pushes out, if said.
+    pub extrusion: Option<Extrusion>,
+}
+
+impl Move {
+    /// A move to a place, at no stated speed.
+    pub fn to(to: Point3) -> Self {
+        Self { to, feed: None, extrusion: None }
+    }
+}
+
+/// Which outline a point belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// The outline of the part.
+    Boundary,
+    /// The outline of what is filled.
+    Infill,
+}
+
+/// Which side of the clay a wall is on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Side {
+    /// Around the outside.
+    Outer,
+    /// Around a hole.
+    Inner,
+}
+
+/// What a bead is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Feature {
+    /// The outermost wall.
+    Edge(Side),
+    /// A wall inside it.
+    Loop(Side),
+    /// Between the walls.
+    Infill,
+    /// A bead on the middle of a part too thin for two.
+    Middle,
+}
+
+/// Gives the blocks of the grammar (stages.md §2.2) their names.
+macro_rules! tags {
+    ($($(#[doc = $doc:literal])+ $variant:ident = $name:literal;)*) => {
+        /// The name of a block.
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub enum Tag { $($(#[doc = $doc])+ $variant,)* }
+        impl Tag {
+            /// The name as it stands between the angle brackets.
+            pub fn name(self) -> &'static str {
+                match self { $(Self::$variant => $name,)* }
+            }
+            fn from_name(name: &[u8]) -> Option<Self> {
+                $(if name == $name.as_bytes() { return Some(Self::$variant); })*
+                None
+            }
+        }
+    };
+}
+
+tags! {
+    /// An outline with everything that belongs to it.
+    NestedRing = "nestedRing";
+    /// The points of an outline and its wall.
+    BoundaryPerimeter = "boundaryPerimeter";
+    /// A layer.
+    Layer = "layer";
+    /// The outermost wall.
+    Edge = "edge";
+    /// An inner wall.
+    Loop = "loop";
+    /// Everything between the walls.
+    Infill = "infill";
+    /// The outline of what is filled.
+    InfillBoundary = "infillBoundary";
+    /// A bead on the middle of a thin part.
+    Middle = "middle";
+    /// The direction of infill.
+    Rotation = "rotation";
+    /// The direction of a bridge.
+    BridgeRotation = "bridgeRotation";
+    /// The header.
+    ExtruderInitialization = "extruderInitialization";
+    /// The settings that were used.
+    Settings = "settings";
+    /// All layers.
+    Crafting = "crafting";
+}
+
+impl Mark {
+    fn tag(self) -> &'static str {
+        match self {
+            Self::Boundary => "boundaryPoint",
+            Self::Infill => "infillPoint",
+        }
+    }
+}
+
+impl Side {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Outer => "outer",
+            Self::Inner => "inner",
+        }
+    }
+}
+
+impl Line {
+    /// A named value.
+    ///
+    /// # Errors
+    /// When name or value would not read back as they were: a line break, a bracket, or blanks at an end.
+    pub fn value(name: &str, value: &str) -> Result<Self, Error> {
+        let plain = !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
+        let sound = value.trim() == value && !value.is_empty() && !value.contains(['\n', '\r', '<']);
+        if !plain || !sound || is_point(name) || name == "thickness" {
+            return Err(Error::new(format!("`{name}` = `{value}` cannot stand in a header tag")));
+        }
+        Ok(Self::Value(Box::new((name.into(), value.into()))))
+    }
+
+    /// The move, if it is one.
+    pub fn as_move(&self) -> Option<&Move> {
+        match self {
+            Self::Move(step) => Some(step),
+            _ => None,
+        }
+    }
+
+    /// Appends the line without a line break.
+    pub fn write(&self, out: &mut Vec<u8>) {
+        match self {
+            Self::Move(step) => step.write(out),
+            Self::Point(mark, at) => {
+                bracket(out, mark.tag());
+                out.extend_from_slice(b" X");
+                axes(out, *at);
+                close(out, mark.tag());
+            }
+            Self::On => out.extend_from_slice(b"M101"),
+            Self::Off => out.extend_from_slice(b"M103"),
+            Self::Flow(flow) => {
+                out.extend_from_slice(b"M108 S");
+                flow.write(out);
+            }
+            Self::Layer(z) => {
+                out.extend_from_slice(b"(<layer> ");
+                z.write(out);
+                out.extend_from_slice(b" )");
+            }
+            Self::Thickness(height) => {
+                out.extend_from_slice(b"(<thickness> ");
+                height.write(out);
+                close(out, "thickness");
+            }
+            Self::Wall(tag, side) => {
+                bracket(out, tag.name());
+                out.push(b' ');
+                out.extend_from_slice(side.word().as_bytes());
+                out.extend_from_slice(b" )");
+            }
+            Self::Rotation(tag, direction) => {
+                bracket(out, tag.name());
+                out.extend_from_slice(format!(" {direction} )").as_bytes());
+            }
+            Self::Open(tag) => {
+                bracket(out, tag.name());
+                out.push(b')');
+            }
+            Self::Close(tag) => {
+                out.extend_from_slice(b"(</");
+                out.extend_from_slice(tag.name().as_bytes());
+                out.extend_from_slice(b">)");
+            }
+            Self::Value(pair) => {
+                bracket(out, &pair.0);
+                out.push(b' ');
+                out.extend_from_slice(pair.1.as_bytes());
+                close(out, &pair.0);
+            }
+            Self::Verbatim(text) => out.extend_from_slice(text.as_bytes()),
+        }
+    }
+}
+
+impl Move {
+    #[inline]
+    fn write(&self, out: &mut Vec<u8>) {
+        out.extend_from_slice(b"G1 X");
+        axes(out, self.to);
+        if let Some(feed) = self.feed {
+            out.extend_from_slice(b" F");
+            feed.write(out);
+        }
+        if let Some(extrusion) = self.extrusion {
+            out.extend_from_slice(b" E");
+            extrusion.write(out);
+        }
+    }
+}
+
+fn axes(out: &mut Vec<u8>, at: Point3) {
+    Micron(at.x).write(out);
+    out.extend_from_slice(b" Y");
+    Micron(at.y).write(out);
+    out.extend_from_slice(b" Z");
+    Micron(at.z).write(out);
+}
+
+fn bracket(out: &mut Vec<u8>, name: &str) {
+    out.extend_from_slice(b"(<");
+    out.extend_from_slice(name.as_bytes());
+    out.push(b'>');
+}
+
+fn close(out: &mut Vec<u8>, name: &str) {
+    out.extend_from_slice(b" </");
+    out.extend_from_slice(name.as_bytes());
+    out.extend_from_slice(b">)");
+}
+
+fn is_point(name: &str) -> bool {
+    name == Mark::Boundary.tag() || name == Mark::Infill.tag()
+}
+
+/// Reads lines. It remembers the last place, since a move may leave out the axes that do not change.
+#[derive(Clone, Debug, Default)]
+pub struct Reader {
+    x: Option<i32>,
+    y: Option<i32>,
+    z: Option<i32>,
+}
+
+impl Reader {
+    /// Reads one line; a trailing CR is no part of it.
+    ///
+    /// # Errors
+    /// When a line that must mean something cannot: a word that is no number, a place out of range.
+    pub fn line(&mut self, text: &[u8]) -> Result<Line, Error> {
+        let text = text.trim_ascii();
+        if let Some(rest) = text.strip_prefix(b"G1 ") {
+            return self.move_line(rest);
+        }
+        if let Some(rest) = text.strip_prefix(b"(<") {
+            if let Some(line) = self.tag_line(rest)? {
+                return Ok(line);
+            }
+        } else if text == b"M101" {
+            return Ok(Line::On);
+        } else if text == b"M103" {
+            return Ok(Line::Off);
+        } else if let Some(rest) = text.strip_prefix(b"M108 S") {
+            if let Some(flow) = Ratio::read(rest) {
+                return Ok(Line::Flow(flow));
+            }
+            return Err(Error::new(format!("`{}` is no flow", lossy(rest))));
+        }
+        match std::str::from_utf8(text) {
+            Ok(text) => Ok(Line::Verbatim(text.into())),
+            Err(_) => Err(Error::new("the line is not UTF-8 text")),
+        }
+    }
+
+    fn move_line(&mut self, mut rest: &[u8]) -> Result<Line, Error> {
+        let (mut feed, mut extrusion) = (None, None);
+        loop {
+            rest = rest.trim_ascii_start();
+            let Some((&letter, number)) = rest.split_first() else { break };
+            if letter == b';' || letter == b'(' {
+                break;
+            }
+            let word = || {
+                let end = rest.iter().position(u8::is_ascii_whitespace).unwrap_or(rest.len());
+                lossy(&rest[..end])
+            };
+            let places = match letter {
+                b'X' | b'Y' | b'Z' | b'F' => 3,
+                b'E' => Extrusion::PLACES,
+                _ => {
+                    return Err(Error::new(format!("`{}` is no word of a move", word()))
+                        .hint("a move knows X, Y, Z, F and E"));
+                }
+            };
+            let read = unit::decimal::read_prefix(number, places);
+            let whole = |length: usize| number.get(length).is_none_or(u8::is_ascii_whitespace);
+            let Some((value, length)) = read.filter(|(_, length)| whole(*length)) else {
+                return Err(Error::new(format!("`{}` is no number", word())));
+            };
+            let taken = match letter {
+                b'E' => {
+                    extrusion = Extrusion::new(value);
+                    extrusion.is_some()
+                }
+                b'F' => {
+                    feed = Feed::from_places(value);
+                    feed.is_some()
+                }
+                _ => {
+                    let place = Micron::from_places(value).map(|length| length.0);
+                    match letter {
+                        b'X' => self.x = place,
+                        b'Y' => self.y = place,
+                        _ => self.z = place,
+                    }
+                    place.is_some()
+                }
+            };
+            if !taken {
+                return Err(Error::new(format!("`{}` is out of range", word())));
+            }
+            rest = &number[length..];
+        }
+        match (self.x, self.y, self.z) {
+            (Some(x), Some(y), Some(z)) => Ok(Line::Move(Move { to: Point3 { x, y, z }, feed, extrusion })),
+            _ => Err(Error::new("a move leaves out an axis before any move has set it").hint("give X, Y and Z")),
+        }
+    }
+
+    fn tag_line(&mut self, rest: &[u8]) -> Result<Option<Line>, Error> {
+        if let Some(name) = rest.strip_prefix(b"/").and_then(|rest| rest.strip_suffix(b">)")) {
+            return Ok(Tag::from_name(name).map(Line::Close));
+        }
+        let Some(end) = rest.iter().position(|byte| *byte == b'>') else { return Ok(None) };
+        let (name, after) = (&rest[..end], &rest[end + 1..]);
+        if after == b")" {
+            return Ok(Tag::from_name(name).map(Line::Open));
+        }
+        let Some(body) = after.strip_suffix(b")") else { return Ok(None) };
+        let opening = body.last() == Some(&b' ') || !body.ends_with(b">");
+        if opening {
+            return open_with_value(name, body.trim_ascii());
+        }
+        let value = body.strip_suffix(b">").and_then(|body| body.strip_suffix(name)).and_then(|body| body.strip_suffix(b"</"));
+        let Some(value) = value.map(<[u8]>::trim_ascii) else { return Ok(None) };
+        let bad = || Error::new(format!("`{}` is no value for `{}`", lossy(value), lossy(name)));
+        match name {
+            b"boundaryPoint" | b"infillPoint" => {
+                let mark = if name == b"boundaryPoint" { Mark::Boundary } else { Mark::Infill };
+                let mut words = [None; 3];
+                for word in value.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
+                    let axis = word.first().and_then(|letter| letter.checked_sub(b'X')).filter(|axis| *axis < 3);
+                    let axis = axis.ok_or_else(bad)?;
+                    words[axis as usize] = Some(Micron::read(&word[1..]).ok_or_else(bad)?.0);
+                }
+                match words {
+                    [Some(x), Some(y), Some(z)] => Ok(Some(Line::Point(mark, Point3 { x, y, z }))),
+                    _ => Err(bad()),
+                }
+            }
+            b"thickness" => {
+                let height = Micron::read(value).filter(|height| height.0 > 0).ok_or_else(bad)?;
+                Ok(Some(Line::Thickness(height)))
+            }
+            _ => match (std::str::from_utf8(name), std::str::from_utf8(value)) {
+                (Ok(name), Ok(value)) => Ok(Line::value(name, value).ok()),
+                _ => Ok(None),
+            },
+        }
+    }
+}
+
+/// `(<name> value )`
+fn open_with_value(name: &[u8], value: &[u8]) -> Result<Option<Line>, Error> {
+    let bad = || Error::new(format!("`{}` is no value for `{}`", lossy(value), lossy(name)));
+    Ok(Some(match Tag::from_name(name) {
+        Some(Tag::Layer) => Line::Layer(Micron::read(value).ok_or_else(bad)?),
+        Some(tag @ (Tag::Edge | Tag::Loop)) => Line::Wall(
+            tag,
+            match value {
+                b"outer" => Side::Outer,
+                b"inner" => Side::Inner,
+                _ => return Err(bad()),
+            },
+        ),
+        Some(tag @ (Tag::Rotation | Tag::BridgeRotation)) => {
+            let text = std::str::from_utf8(value).map_err(|_| bad())?;
+            Line::Rotation(tag, text.parse().map_err(|_| bad())?)
+        }
+        _ => return Ok(None),
+    }))
+}
+
+fn lossy(text: &[u8]) -> std::borrow::Cow<'_, str> {
+    String::from_utf8_lossy(text)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_line_takes_no_more_room_than_a_move_and_its_kind() {
+        assert_eq!(size_of::<Line>(), 32);
+    }
+
+    #[test]
+    fn a_move_may_leave_out_what_does_not_change() {
+        let mut reader = Reader::default();
+        assert!(reader.line(b"G1 X5").is_err());
+        reader.line(b"G1 X1.0 Y2.0 Z0.2 F960").expect("whole move");
+        let line = reader.line(b"G1 X5.0 (note) ;x").expect("partial move");
+        let mut text = Vec::new();
+        line.write(&mut text);
+        assert_eq!(text, b"G1 X5.0 Y2.0 Z0.2");
+    }
+
+    #[test]
+    fn a_word_that_is_no_number_is_an_error() {
+        let mut reader = Reader::default();
+        for text in ["G1 X1,5 Y0 Z0", "G1 XY0 Z0", "G1 X0 Y0 Z0 F0", "G1 X0 Y0 Z99999999", "M108 Sfull", "(<layer> high )"] {
+            assert!(reader.line(text.as_bytes()).is_err(), "{text}");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+use crate::Choice;
+use crate::settings::{Kind, ReadValue, Setting, Value};
+use std::fmt;
+use std::str::FromStr;
+use unit::Micron;
+
+/// The printer: how large it is, what it pushes through, and what its E word counts.
+#[derive(Clone, Debug, PartialEq, crate::Settings)]
+pub struct Machine {
+    /// The room in which the nozzle may move: length along x, length along y, height.
+    #[setting(default = Bed::cube(200), min = 1.0, max = 100000.0, unit = "mm")]
+    pub bed: Bed,
+    /// Where x = 0, y = 0 lies on the bed.
+    #[setting(default = Origin::Corner)]
+    pub origin: Origin,
+    /// The outline of the bed.
+    #[setting(default = BedShape::Rectangle)]
+    pub shape: BedShape,
+    /// The inner diameter of the nozzle.
+    #[setting(default = 3.0, min = 0.1, max = 100.0, unit = "mm")]
+    pub nozzle: Micron,
+    /// What one unit of E is: "mm3" of clay; { ram = diameter } for millimetres of a piston of this diameter;
+    /// { filament = diameter } for millimetres of a filament that only the firmware believes in;
+    /// { per_mm = value } for this much E on every millimetre of a bead of nominal size.
+    #[setting(default = EUnit::Mm3, min = 0.000001, max = 100000.0)]
+    pub e_unit: EUnit,
+}
+
+/// Length, depth and height of the printing room.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Bed {
+    /// Along x.
+    pub x: Micron,
+    /// Along y.
+    pub y: Micron,
+    /// Upwards.
+    pub z: Micron,
+}
+
+impl Bed {
+    /// A room with three equal sides, in millimetres.
+    const fn cube(mm: i32) -> Self {
+        Self { x: Micron(mm * 1000), y: Micron(mm * 1000), z: Micron(mm * 1000) }
+    }
+}
+
+impl Setting for Bed {
+    const KIND: Kind = Kind::Form("[x, y, z]");
+    fn read(value: &Value) -> Result<Self, String> {
+        match value {
+            Value::List(values) if values.len() == 3 => Ok(Self {
+                x: Micron::read_value(&values[0])?,
+                y: Micron::read_value(&values[1])?,
+                z: Micron::read_value(&values[2])?,
+            }),
+            _ => Err("is not of the form [x, y, z]".to_owned()),
+        }
+    }
+    fn show(&self) -> Value {
+        Value::List(vec![self.x.show(), self.y.show(), self.z.show()])
+    }
+}
+
+/// Where the machine counts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
+pub enum Origin {
+    /// The front left corner of the bed.
+    Corner,
+    /// The middle of the bed, as on delta machines.
+    Center,
+}
+
+/// The outline of the bed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
+pub enum BedShape {
+    /// A rectangle.
+    Rectangle,
+    /// An ellipse that touches the rectangle's sides; a circle when they are equal.
+    Ellipse,
+}
+
+/// What one unit of E is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EUnit {
+    /// A cubic millimetre of clay.
+    Mm3,
+    /// A millimetre of a ram of this diameter.
+    Ram(Micron),
+    /// A millimetre of a make-believe filament of this diameter.
+    Filament(Micron),
+    /// So much E, in millionths, on each millimetre of a bead of nominal section.
+    PerMm(i32),
+}
+
+impl EUnit {
+    /// E units per cubic millimetre, when a nominal bead has a section of `section` mm².
+    ///
+    /// A cylinder of diameter d holds π/4·d² mm³ per mm (clay.md §5.2).
+    pub fn per_mm3(self, section: f64) -> f64 {
+        match self {
+            Self::Mm3 => 1.0,
+            Self::Ram(diameter) | Self::Filament(diameter) => {
+                1.0 / (std::f64::consts::FRAC_PI_4 * diameter.mm() * diameter.mm())
+            }
+            Self::PerMm(millionths) => f64::from(millionths) / 1e6 / section,
+        }
+    }
+}
+
+impl Setting for EUnit {
+    const KIND: Kind = Kind::Form("\"mm3\", { ram = diameter }, { filament = diameter } or { per_mm = value }");
+    fn read(value: &Value) -> Result<Self, String> {
+        let named = match value {
+            Value::Text(word) if word == "mm3" => return Ok(Self::Mm3),
+            Value::Table(entries) if entries.len() == 1 => Some((entries[0].0.as_str(), &entries[0].1)),
+            _ => None,
+        };
+        match named {
+            Some(("ram", diameter)) => Micron::read_value(diameter).map(Self::Ram),
+            Some(("filament", diameter)) => Micron::read_value(diameter).map(Self::Filament),
+            Some(("per_mm", number)) => unit::Ratio::read_value(number).map(|ratio| Self::PerMm(ratio.0)),
+            _ => Err("is not \"mm3\", { ram = diameter }, { filament = diameter } or { per_mm = value }".to_owned()),
+        }
+    }
+    fn show(&self) -> Value {
+        let named = |name: &str, number: f64| Value::Table(vec![(name.to_owned(), Value::Number(number))]);
+        match *self {
+            Self::Mm3 => Value::Text("mm3".to_owned()),
+            Self::Ram(diameter) => named("ram", diameter.mm()),
+            Self::Filament(diameter) => named("filament", diameter.mm()),
+            Self::PerMm(millionths) => named("per_mm", f64::from(millionths) / 1e6),
+        }
+    }
+}
+
+// The header forms: plain words, since a header tag holds no quotes.
+
+impl fmt::Display for EUnit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Mm3 => f.write_str("mm3"),
+            Self::Ram(diameter) => write!(f, "ram {diameter}"),
+            Self::Filament(diameter) => write!(f, "filament {diameter}"),
+            Self::PerMm(millionths) => write!(f, "per_mm {}", unit::Ratio(*millionths)),
+        }
+    }
+}
+
+impl FromStr for EUnit {
+    type Err = ();
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let (word, number) = text.split_once(' ').unwrap_or((text, ""));
+        let length = || number.parse::<Micron>().ok().filter(|length| length.0 > 0).ok_or(());
+        match word {
+            "mm3" if number.is_empty() => Ok(Self::Mm3),
+            "ram" => length().map(Self::Ram),
+            "filament" => length().map(Self::Filament),
+            "per_mm" => {
+                number.parse::<unit::Ratio>().ok().filter(|ratio| ratio.0 > 0).map(|ratio| Self::PerMm(ratio.0)).ok_or(())
+            }
+            _ => Err(()),
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! Views: where the nozzle is, and which lines belong together.
+
+use crate::{Feature, Line, Mark, Side, Tag};
+use shape::{Point, Point3, Ring};
+use unit::{Feed, Ratio};
+
+/// What the nozzle is doing. Fed every line in order, it knows where it is, whether clay flows, and what for.
+#[derive(Clone, Debug)]
+pub struct Nozzle {
+    /// Where it stands; unknown before the first move.
+    pub at: Option<Point3>,
+    /// Whether clay flows.
+    pub on: bool,
+    /// The share of the nominal section that flows.
+    pub flow: Ratio,
+    /// The last feed said.
+    pub feed: Option<Feed>,
+    /// What the present bead is for.
+    pub feature: Feature,
+}
+
+impl Default for Nozzle {
+    fn default() -> Self {
+        Self { at: None, on: false, flow: Ratio::ONE, feed: None, feature: Feature::Middle }
+    }
+}
+
+impl Nozzle {
+    /// Takes note of one line.
+    #[inline]
+    pub fn follow(&mut self, line: &Line) {
+        match line {
+            Line::Move(step) => {
+                self.at = Some(step.to);
+                self.feed = step.feed.or(self.feed);
+            }
+            Line::On => self.on = true,
+            Line::Off => self.on = false,
+            Line::Flow(flow) => self.flow = *flow,
+            Line::Wall(Tag::Edge, side) => self.feature = Feature::Edge(*side),
+            Line::Wall(Tag::Loop, side) => self.feature = Feature::Loop(*side),
+            Line::Open(Tag::Infill) => self.feature = Feature::Infill,
+            Line::Close(Tag::Edge | Tag::Loop | Tag::Infill) => self.feature = Feature::Middle,
+            _ => {}
+        }
+    }
+}
+
+/// Lines that belong together. End to end the spans of a layer are all its lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Span<'a> {
+    /// From where clay begins to flow to where it stops.
+    Thread(&'a [Line]),
+    /// Moves without clay, one after the other.
+    Travel(&'a [Line]),
+    /// Any other line.
+    Other(&'a Line),
+}
+
+/// Cuts lines into threads, travels and the rest.
+pub fn spans(lines: &[Line]) -> impl Iterator<Item = Span<'_>> {
+    let mut rest = lines;
+    std::iter::from_fn(move || {
+        let (first, _) = rest.split_first()?;
+        let length = match first {
+            Line::On => rest.iter().position(|line| *line == Line::Off).map_or(rest.len(), |end| end + 1),
+            Line::Move(_) => rest.iter().position(|line| line.as_move().is_none()).unwrap_or(rest.len()),
+            _ => 1,
+        };
+        let (span, after) = rest.split_at(length);
+        rest = after;
+        Some(match first {
+            Line::On => Span::Thread(span),
+            Line::Move(_) => Span::Travel(span),
+            line => Span::Other(line),
+        })
+    })
+}
+
+/// The outlines of a layer: one ring for each boundary block.
+pub fn boundary(lines: &[Line]) -> Vec<Ring> {
+    let mut rings = Vec::new();
+    let mut points = Vec::new();
+    for line in lines {
+        match line {
+            Line::Point(Mark::Boundary, at) => points.push(Point::new(at.x, at.y)),
+            Line::Close(Tag::BoundaryPerimeter) => rings.push(Ring(std::mem::take(&mut points))),
+            _ => {}
+        }
+    }
+    rings
+}
+
+impl Feature {
+    /// Whether it is a wall.
+    pub fn is_wall(self) -> bool {
+        matches!(self, Self::Edge(_) | Self::Loop(_))
+    }
+
+    /// The lines that open and close the block of a bead of this kind.
+    pub fn tags(self) -> (Line, Line) {
+        match self {
+            Self::Edge(side) => (Line::Wall(Tag::Edge, side), Line::Close(Tag::Edge)),
+            Self::Loop(side) => (Line::Wall(Tag::Loop, side), Line::Close(Tag::Loop)),
+            Self::Infill => (Line::Open(Tag::Infill), Line::Close(Tag::Infill)),
+            Self::Middle => (Line::Open(Tag::Middle), Line::Close(Tag::Middle)),
+        }
+    }
+}
+
+impl Side {
+    /// The side a ring of this turning sense is on: counter-clockwise is outside.
+    pub fn of(ring: &Ring) -> Self {
+        if ring.area2() >= 0 { Self::Outer } else { Self::Inner }
+    }
+}
