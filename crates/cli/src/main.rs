@@ -1,2 +1,32 @@
-//! The command `clayforge`.
-fn main() {}
+//! The command `clayforge`: files, standard input and output, progress and exit codes around the library of that name.
+
+mod args;
+mod check;
+mod craft;
+mod dump;
+mod explain;
+mod output;
+mod profile;
+mod report;
+mod slice;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use std::process::ExitCode;
+
+/// Many short-lived lists on several threads: see docs/performance.md.
+#[global_allocator]
+static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let done = match &arguments.command {
+        Command::Slice(slice) => slice::run(slice),
+        Command::Craft(craft) => craft::run(craft),
+        Command::Stages(stages) => explain::stages(stages),
+        Command::Explain(topic) => explain::run(topic),
+        Command::Profile(profile) => profile::run(profile),
+        Command::Check(check) => check::run(check),
+    };
+    report::exit(done)
+}

@@ -64,7 +64,9 @@ impl Line {
             match token {
                 Token::Remark { .. } => remarked = true,
                 Token::Checksum { .. } => {}
-                Token::Word { letter: b'N', value: Some(_), .. } if self.kind == Kind::Blank => self.kind = Kind::Code,
+                Token::Word { letter: b'N', value: Some(_), .. } if self.kind == Kind::Blank => {
+                    self.kind = Kind::Code
+                }
                 Token::Word { letter, value: Some(value), .. } => {
                     self.kind = Kind::Code;
                     self.command = Command::new(letter, value);
@@ -73,7 +75,9 @@ impl Line {
                     }
                     return self.unreadable = true;
                 }
-                Token::Other { start, end } if text.get(start..end) == Some(b"%") && only_remarks(tokens.clone()) => {
+                Token::Other { start, end }
+                    if text.get(start..end) == Some(b"%") && only_remarks(tokens.clone()) =>
+                {
                     remarked = true;
                 }
                 Token::Word { .. } | Token::Other { .. } => {
@@ -148,10 +152,13 @@ mod tests {
 
     #[test]
     fn the_first_word_is_the_command() {
-        for text in ["G1", "g1", "G01", "G1.0", "G 1", "G+1", "N7 G1", "n7g1*12", "(a) G1", "G1(a)", "G1X", "g1 ;"] {
+        for text in
+            ["G1", "g1", "G01", "G1.0", "G 1", "G+1", "N7 G1", "n7g1*12", "(a) G1", "G1(a)", "G1X", "g1 ;"]
+        {
             assert_eq!(Line::of(text.as_bytes()).command, Some(Command::g(1)), "{text}");
         }
-        for text in ["", ";G1", "(G1)", "/G1", "START G1", "G", "G.", "G1.00001", "G99999999999", "N1 N2 G1"] {
+        for text in ["", ";G1", "(G1)", "/G1", "START G1", "G", "G.", "G1.00001", "G99999999999", "N1 N2 G1"]
+        {
             assert_ne!(Line::of(text.as_bytes()).command, Some(Command::g(1)), "{text}");
         }
         assert_eq!(Line::of(b"G91.1").command, Command::new(b'G', 91.1));

@@ -58,7 +58,8 @@ impl<'a> Tokens<'a> {
     }
 
     /// The next word, if its number stands right behind its letter; else nothing is taken but blanks.
-    #[inline]
+    // Called twice, by the one who reads every line: worth its size.
+    #[inline(always)]
     pub(crate) fn plain_word(&mut self) -> Option<(u8, f64)> {
         let mut index = self.index;
         let mut byte = *self.text.get(index)?;
@@ -195,6 +196,9 @@ mod tests {
             .collect();
         assert_eq!(pieces, ["n3", "G1", "X 12.5", "(c)", "?", "Y", "*7 ", ";r"]);
         let third = Tokens::new(text).nth(2);
-        assert_eq!(third, Some(Token::Word { letter: b'X', value: Some(12.5), start: 6, number_start: 8, end: 12 }));
+        assert_eq!(
+            third,
+            Some(Token::Word { letter: b'X', value: Some(12.5), start: 6, number_start: 8, end: 12 })
+        );
     }
 }

@@ -75,6 +75,12 @@ impl Words {
         index(letter).is_some_and(|index| self.bare & (1 << index) != 0)
     }
 
+    /// Whether any letter stands in the line without a number.
+    #[inline]
+    pub fn has_bare(&self) -> bool {
+        self.bare != 0
+    }
+
     /// The letters with their numbers, in the order of the alphabet.
     pub fn iter(&self) -> impl Iterator<Item = (u8, f64)> + '_ {
         (b'A'..=b'Z').filter_map(|letter| Some((letter, self.get(letter)?)))

@@ -162,7 +162,9 @@ impl Skein {
 
     /// Whether a stage has been here already.
     pub fn has_done(&self, stage: &str) -> bool {
-        self.head.iter().any(|line| matches!(line, Line::Value(pair) if &*pair.0 == "procedureName" && &*pair.1 == stage))
+        self.head
+            .iter()
+            .any(|line| matches!(line, Line::Value(pair) if &*pair.0 == "procedureName" && &*pair.1 == stage))
     }
 
     /// Says in the header that a stage has been here, and with which settings.
@@ -211,7 +213,10 @@ impl Skein {
     ///
     /// # Errors
     /// The error of the lowest layer that has one, at that layer.
-    pub fn each(&mut self, work: impl Fn(usize, &mut Layer) -> Result<(), Error> + Sync) -> Result<(), Error> {
+    pub fn each(
+        &mut self,
+        work: impl Fn(usize, &mut Layer) -> Result<(), Error> + Sync,
+    ) -> Result<(), Error> {
         let done: Vec<Result<(), Error>> = self
             .layers
             .par_iter_mut()

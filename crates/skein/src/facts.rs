@@ -139,7 +139,9 @@ fn show<T: fmt::Display>(value: &T) -> String {
 
 /// A feed in the header is in mm/s with three decimals, as the seed writes it.
 fn feed_of(text: &str) -> Option<Feed> {
-    unit::decimal::read(text.as_bytes(), 3).and_then(|value| u32::try_from(value.checked_mul(60)?).ok()).and_then(Feed::new)
+    unit::decimal::read(text.as_bytes(), 3)
+        .and_then(|value| u32::try_from(value.checked_mul(60)?).ok())
+        .and_then(Feed::new)
 }
 
 fn show_feed(feed: &Feed) -> String {

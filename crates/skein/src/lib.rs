@@ -23,6 +23,7 @@ mod stage;
 mod svg;
 mod verify;
 
+pub use document::{Layer, Signature, Skein};
 pub use error::{Error, Place};
 pub use facts::{Bead, Facts, Section};
 pub use line::{Feature, Line, Mark, Move, Reader, Side, Tag};
@@ -30,7 +31,6 @@ pub use machine::{Bed, BedShape, EUnit, Machine, Origin};
 pub use notes::{Note, Notes};
 pub use nozzle::{Nozzle, Span, boundary, spans};
 pub use settings::{Choice, Field, Kind, Setting, SettingError, Settings, Value};
-pub use document::{Layer, Signature, Skein};
 pub use skein_derive::{Choice, Settings};
 pub use slices::{RotatedLoopLayer, Slices};
 pub use stage::{Craft, Stage};

@@ -357,7 +357,10 @@ impl Reader {
         }
         match (self.x, self.y, self.z) {
             (Some(x), Some(y), Some(z)) => Ok(Line::Move(Move { to: Point3 { x, y, z }, feed, extrusion })),
-            _ => Err(Error::new("a move leaves out an axis before any move has set it").hint("give X, Y and Z")),
+            _ => {
+                Err(Error::new("a move leaves out an axis before any move has set it")
+                    .hint("give X, Y and Z"))
+            }
         }
     }
 
@@ -375,7 +378,10 @@ impl Reader {
         if opening {
             return open_with_value(name, body.trim_ascii());
         }
-        let value = body.strip_suffix(b">").and_then(|body| body.strip_suffix(name)).and_then(|body| body.strip_suffix(b"</"));
+        let value = body
+            .strip_suffix(b">")
+            .and_then(|body| body.strip_suffix(name))
+            .and_then(|body| body.strip_suffix(b"</"));
         let Some(value) = value.map(<[u8]>::trim_ascii) else { return Ok(None) };
         let bad = || Error::new(format!("`{}` is no value for `{}`", lossy(value), lossy(name)));
         match name {
@@ -383,7 +389,8 @@ impl Reader {
                 let mark = if name == b"boundaryPoint" { Mark::Boundary } else { Mark::Infill };
                 let mut words = [None; 3];
                 for word in value.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()) {
-                    let axis = word.first().and_then(|letter| letter.checked_sub(b'X')).filter(|axis| *axis < 3);
+                    let axis =
+                        word.first().and_then(|letter| letter.checked_sub(b'X')).filter(|axis| *axis < 3);
                     let axis = axis.ok_or_else(bad)?;
                     words[axis as usize] = Some(Micron::read(&word[1..]).ok_or_else(bad)?.0);
                 }
@@ -452,7 +459,14 @@ mod tests {
     #[test]
     fn a_word_that_is_no_number_is_an_error() {
         let mut reader = Reader::default();
-        for text in ["G1 X1,5 Y0 Z0", "G1 XY0 Z0", "G1 X0 Y0 Z0 F0", "G1 X0 Y0 Z99999999", "M108 Sfull", "(<layer> high )"] {
+        for text in [
+            "G1 X1,5 Y0 Z0",
+            "G1 XY0 Z0",
+            "G1 X0 Y0 Z0 F0",
+            "G1 X0 Y0 Z99999999",
+            "M108 Sfull",
+            "(<layer> high )",
+        ] {
             assert!(reader.line(text.as_bytes()).is_err(), "{text}");
         }
     }

@@ -26,6 +26,16 @@ pub struct Machine {
     pub e_unit: EUnit,
 }
 
+impl Machine {
+    /// The least x and y of the bed, in microns.
+    pub fn least(&self) -> (i32, i32) {
+        match self.origin {
+            Origin::Corner => (0, 0),
+            Origin::Center => (-(self.bed.x.0 / 2), -(self.bed.y.0 / 2)),
+        }
+    }
+}
+
 /// Length, depth and height of the printing room.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Bed {
@@ -108,7 +118,8 @@ impl EUnit {
 }
 
 impl Setting for EUnit {
-    const KIND: Kind = Kind::Form("\"mm3\", { ram = diameter }, { filament = diameter } or { per_mm = value }");
+    const KIND: Kind =
+        Kind::Form("\"mm3\", { ram = diameter }, { filament = diameter } or { per_mm = value }");
     fn read(value: &Value) -> Result<Self, String> {
         let named = match value {
             Value::Text(word) if word == "mm3" => return Ok(Self::Mm3),
@@ -119,7 +130,8 @@ impl Setting for EUnit {
             Some(("ram", diameter)) => Micron::read_value(diameter).map(Self::Ram),
             Some(("filament", diameter)) => Micron::read_value(diameter).map(Self::Filament),
             Some(("per_mm", number)) => unit::Ratio::read_value(number).map(|ratio| Self::PerMm(ratio.0)),
-            _ => Err("is not \"mm3\", { ram = diameter }, { filament = diameter } or { per_mm = value }".to_owned()),
+            _ => Err("is not \"mm3\", { ram = diameter }, { filament = diameter } or { per_mm = value }"
+                .to_owned()),
         }
     }
     fn show(&self) -> Value {
@@ -155,9 +167,12 @@ impl FromStr for EUnit {
             "mm3" if number.is_empty() => Ok(Self::Mm3),
             "ram" => length().map(Self::Ram),
             "filament" => length().map(Self::Filament),
-            "per_mm" => {
-                number.parse::<unit::Ratio>().ok().filter(|ratio| ratio.0 > 0).map(|ratio| Self::PerMm(ratio.0)).ok_or(())
-            }
+            "per_mm" => number
+                .parse::<unit::Ratio>()
+                .ok()
+                .filter(|ratio| ratio.0 > 0)
+                .map(|ratio| Self::PerMm(ratio.0))
+                .ok_or(()),
             _ => Err(()),
         }
     }

@@ -59,7 +59,8 @@ impl Notes {
     /// One line for each different remark, with the layers it is about and the first spot.
     pub fn summary(&self) -> Vec<String> {
         let mut order: Vec<(&str, &str)> = Vec::new();
-        let mut groups: std::collections::HashMap<(&str, &str), Vec<&Note>> = std::collections::HashMap::new();
+        let mut groups: std::collections::HashMap<(&str, &str), Vec<&Note>> =
+            std::collections::HashMap::new();
         for note in &self.0 {
             let key = (note.stage.as_str(), note.text.as_str());
             groups.entry(key).or_insert_with(|| {
@@ -109,7 +110,11 @@ impl fmt::Display for Ranges<'_> {
             }
         }
         if runs.len() > 8 {
-            write!(f, " and {} more", self.0.len() - runs.iter().take(8).map(|(s, e)| e - s + 1).sum::<usize>())?;
+            write!(
+                f,
+                " and {} more",
+                self.0.len() - runs.iter().take(8).map(|(s, e)| e - s + 1).sum::<usize>()
+            )?;
         }
         Ok(())
     }

@@ -278,7 +278,12 @@ pub(crate) trait ReadValue: Setting {
 impl<T: Setting> ReadValue for T {}
 
 /// For the derive: reads a value and checks its bounds.
-pub fn read_within<T: Setting>(value: &Value, min: Option<f64>, max: Option<f64>, unit: &str) -> Result<T, SettingError> {
+pub fn read_within<T: Setting>(
+    value: &Value,
+    min: Option<f64>,
+    max: Option<f64>,
+    unit: &str,
+) -> Result<T, SettingError> {
     let read = T::read_value(value).map_err(SettingError::Refused)?;
     let space = if unit.is_empty() { "" } else { " " };
     for number in value.numbers() {

@@ -1,5 +1,5 @@
-use crate::{Error, Notes, Settings, Skein};
 use crate::settings::Value;
+use crate::{Error, Notes, Settings, Skein};
 
 /// A craft stage from skein to skein: its settings, and what it does.
 pub trait Stage: Settings + Clone + Send + Sync + 'static {

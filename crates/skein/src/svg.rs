@@ -11,7 +11,10 @@ const NAMESPACE: &str = "https://clayforge.org/slice";
 impl Slices {
     /// The drawing.
     pub fn write(&self) -> Vec<u8> {
-        let mut out = Vec::with_capacity(256 + 16 * self.layers.iter().flat_map(|layer| &layer.loops).map(|ring| ring.0.len()).sum::<usize>());
+        let mut out = Vec::with_capacity(
+            256 + 16
+                * self.layers.iter().flat_map(|layer| &layer.loops).map(|ring| ring.0.len()).sum::<usize>(),
+        );
         let (width, depth) = (self.bounds.max.x - self.bounds.min.x, self.bounds.max.y - self.bounds.min.y);
         out.extend_from_slice(b"<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
         out.extend_from_slice(
@@ -30,9 +33,14 @@ impl Slices {
             attribute(&mut out, tag, &value);
         }
         let Bounds { min, max } = self.bounds;
-        for (name, value) in
-            [("minX", min.x), ("maxX", max.x), ("minY", min.y), ("maxY", max.y), ("minZ", min.z), ("maxZ", max.z)]
-        {
+        for (name, value) in [
+            ("minX", min.x),
+            ("maxX", max.x),
+            ("minY", min.y),
+            ("maxY", max.y),
+            ("minZ", min.z),
+            ("maxZ", max.z),
+        ] {
             attribute(&mut out, name, &Micron(value).to_string());
         }
         let names: Vec<&str> = self.done.iter().map(|signature| signature.stage.as_str()).collect();
@@ -93,16 +101,21 @@ impl Slices {
             let place = document.text_pos_at(node.range().start);
             Error::new(message).at(Place::Text { line: place.row as usize, column: place.col as usize })
         };
-        let meta = document.descendants().find(|node| node.has_tag_name((NAMESPACE, "layers"))).ok_or_else(|| {
-            Error::new("the drawing has no `slice:layers` metadata").hint("preface reads the SVG that carve writes")
-        })?;
+        let meta = document.descendants().find(|node| node.has_tag_name((NAMESPACE, "layers"))).ok_or_else(
+            || {
+                Error::new("the drawing has no `slice:layers` metadata")
+                    .hint("preface reads the SVG that carve writes")
+            },
+        )?;
         let mut slices = Self::default();
         for attribute in meta.attributes() {
             let (name, value) = (attribute.name(), attribute.value());
             if slices.facts.take(name, value).map_err(|error| at(meta, error.message))? {
                 continue;
             }
-            let length = || value.parse::<Micron>().map_err(|_| at(meta, format!("`{value}` is no value for `{name}`")));
+            let length = || {
+                value.parse::<Micron>().map_err(|_| at(meta, format!("`{value}` is no value for `{name}`")))
+            };
             match name {
                 "minX" => slices.bounds.min.x = length()?.0,
                 "maxX" => slices.bounds.max.x = length()?.0,
@@ -116,15 +129,20 @@ impl Slices {
                     }
                 }
                 "yAxisPointingUpward" if value == "true" => {}
-                "yAxisPointingUpward" => return Err(at(meta, "only drawings with y upwards can be read".to_owned())),
+                "yAxisPointingUpward" => {
+                    return Err(at(meta, "only drawings with y upwards can be read".to_owned()));
+                }
                 _ => {}
             }
         }
         for node in meta.children().filter(|node| node.has_tag_name((NAMESPACE, "setting"))) {
-            let get = |name: &str| node.attribute(name).ok_or_else(|| at(node, format!("the setting has no `{name}`")));
+            let get = |name: &str| {
+                node.attribute(name).ok_or_else(|| at(node, format!("the setting has no `{name}`")))
+            };
             let (stage, name, value) = (get("stage")?, get("name")?, get("value")?);
             let signature = slices.done.iter_mut().find(|signature| signature.stage == stage);
-            let signature = signature.ok_or_else(|| at(node, format!("`{stage}` is not in procedureName")))?;
+            let signature =
+                signature.ok_or_else(|| at(node, format!("`{stage}` is not in procedureName")))?;
             signature.settings.push((name.to_owned(), value.to_owned()));
         }
         for node in document.descendants().filter(|node| node.has_tag_name("g")) {
@@ -141,7 +159,8 @@ impl Slices {
             };
             let mut loops = Vec::new();
             for path in node.children().filter(|child| child.has_tag_name("path")) {
-                read_loops(path.attribute("d").unwrap_or(""), &mut loops).map_err(|message| at(path, message))?;
+                read_loops(path.attribute("d").unwrap_or(""), &mut loops)
+                    .map_err(|message| at(path, message))?;
             }
             slices.layers.push(RotatedLoopLayer { z, thickness, rotation, loops });
         }
@@ -163,7 +182,8 @@ fn read_loops(data: &str, loops: &mut Vec<Ring>) -> Result<(), String> {
                 loops.push(Ring(std::mem::take(&mut points)));
             }
             number => {
-                let value: Micron = number.parse().map_err(|_| format!("`{number}` is no coordinate and no M, L or z"))?;
+                let value: Micron =
+                    number.parse().map_err(|_| format!("`{number}` is no coordinate and no M, L or z"))?;
                 match pending.take() {
                     Some(x) => points.push(Point::new(x.0, value.0)),
                     None => pending = Some(value),

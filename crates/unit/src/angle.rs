@@ -43,7 +43,10 @@ impl Direction {
         if !(length > 0.0 && length.is_finite()) {
             return None;
         }
-        Some(Self { x: round_within(x / length * 1e6, 1e6)? as i32, y: round_within(y / length * 1e6, 1e6)? as i32 })
+        Some(Self {
+            x: round_within(x / length * 1e6, 1e6)? as i32,
+            y: round_within(y / length * 1e6, 1e6)? as i32,
+        })
     }
 
     /// Cosine and sine, renormalised to length one.

@@ -22,7 +22,8 @@ pub fn write_short(out: &mut Vec<u8>, value: i64, places: u32) {
     write_at_least(out, value, places, 0);
 }
 
-const POWERS: [u64; 10] = [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000, 1_000_000_000];
+const POWERS: [u64; 10] =
+    [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000, 1_000_000_000];
 
 /// Two digits at a time halve the divisions.
 const PAIRS: &[u8; 200] = b"0001020304050607080910111213141516171819\

@@ -64,7 +64,9 @@ impl Feed {
 
     /// The nearest feed to millimetres per second.
     pub fn from_mm_per_s(value: f64) -> Option<Self> {
-        round_within(value * 60_000.0, f64::from(Self::LIMIT)).and_then(|feed| u32::try_from(feed).ok()).and_then(Self::new)
+        round_within(value * 60_000.0, f64::from(Self::LIMIT))
+            .and_then(|feed| u32::try_from(feed).ok())
+            .and_then(Self::new)
     }
 
     /// Millimetres per second.

@@ -1,7 +1,9 @@
 //! Solid geometry: what a part is before it is sliced.
 
-mod mesh;
-mod topology;
 mod measure;
+mod mesh;
+mod section;
+mod topology;
 
 pub use mesh::{Bounds, Edge, Face, Point3, TriangleMesh};
+pub use section::{Chain, Sections, planes_over_level_faces};

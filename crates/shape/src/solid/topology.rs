@@ -34,7 +34,8 @@ impl TriangleMesh {
     /// assert_eq!((mesh.edges.len(), mesh.open_edges()), (6, 0));
     /// ```
     pub fn from_triangles(vertices: Vec<Point3>, triangles: Vec<[u32; 3]>) -> Self {
-        let parts = if triangles.len() < PARALLEL_FROM { 1 } else { rayon::current_num_threads().min(MOST_PARTS) };
+        let parts =
+            if triangles.len() < PARALLEL_FROM { 1 } else { rayon::current_num_threads().min(MOST_PARTS) };
         Self::from_triangles_in(vertices, triangles, parts)
     }
 
@@ -47,8 +48,11 @@ impl TriangleMesh {
         // has to hold.
         let width = vertices.len().div_ceil(parts).max(1);
         let mut ends = vec![0u32; vertices.len()];
-        let side_counts: Vec<usize> =
-            ends.par_chunks_mut(width).enumerate().map(|(part, ends)| count(&triangles, first(part, width), ends)).collect();
+        let side_counts: Vec<usize> = ends
+            .par_chunks_mut(width)
+            .enumerate()
+            .map(|(part, ends)| count(&triangles, first(part, width), ends))
+            .collect();
 
         let mut sides = vec![0u64; triangles.len() * 3];
         let edge_counts: Vec<usize> = ends
@@ -63,7 +67,8 @@ impl TriangleMesh {
 
         let total: usize = edge_counts.iter().sum();
         let mut edges: Vec<Edge> = (0..total).into_par_iter().map(|_| UNKNOWN).collect();
-        let edge_of: Vec<[AtomicU32; 3]> = (0..triangles.len()).into_par_iter().map(|_| Default::default()).collect();
+        let edge_of: Vec<[AtomicU32; 3]> =
+            (0..triangles.len()).into_par_iter().map(|_| Default::default()).collect();
         let offsets: Vec<usize> = edge_counts
             .iter()
             .scan(0, |sum, count| {
@@ -212,7 +217,12 @@ fn pair_long(bucket: &mut [u64]) -> usize {
         edges.extend(up.iter().zip(down).map(|(one, two)| {
             if corner(*one) < corner(*two) { (*one, Some(*two)) } else { (*two, Some(*one)) }
         }));
-        edges.extend(up[both..].chunks(2).chain(down[both..].chunks(2)).map(|flipped| (flipped[0], flipped.get(1).copied())));
+        edges.extend(
+            up[both..]
+                .chunks(2)
+                .chain(down[both..].chunks(2))
+                .map(|flipped| (flipped[0], flipped.get(1).copied())),
+        );
     }
     edges.sort_unstable_by_key(|(side, _)| corner(*side));
     let paired = edges.iter().flat_map(|(one, two)| [Some(one & !FLAG), two.map(|two| two | FLAG)]).flatten();
@@ -223,13 +233,23 @@ fn pair_long(bucket: &mut [u64]) -> usize {
 }
 
 /// Writes the edges and tells the triangles their numbers.
-fn join(first: u32, ends: &[u32], sides: &mut [u64], edges: &mut [Edge], offset: u32, edge_of: &[[AtomicU32; 3]]) {
+fn join(
+    first: u32,
+    ends: &[u32],
+    sides: &mut [u64],
+    edges: &mut [Edge],
+    offset: u32,
+    edge_of: &[[AtomicU32; 3]],
+) {
     let mut next = 0;
     for (index, bucket) in buckets(ends, sides) {
         for side in bucket {
             let (face, turn) = (corner(*side) / 3, corner(*side) % 3);
             if *side & FLAG == 0 {
-                edges[next] = Edge { vertices: [first + index as u32, (*side >> 33) as u32], faces: [face, Edge::OPEN] };
+                edges[next] = Edge {
+                    vertices: [first + index as u32, (*side >> 33) as u32],
+                    faces: [face, Edge::OPEN],
+                };
                 next += 1;
             } else {
                 edges[next - 1].faces[1] = face;
@@ -246,7 +266,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn points(count: i32) -> Vec<Point3> {
-        (0..count).map(|index| Point3 { x: index, y: index * index % 7, z: index % 3 }).collect()
+        (0..count).map(|index| Point3 { x: index, y: index % 7, z: index % 3 }).collect()
     }
 
     fn mesh(count: i32, triangles: &[[u32; 3]]) -> TriangleMesh {
@@ -301,14 +321,16 @@ mod tests {
         let other = TETRAHEDRON.map(|face| face.map(|vertex| if vertex < 2 { vertex } else { vertex + 2 }));
         let mesh = mesh(6, &[TETRAHEDRON, other].concat());
         assert_eq!((mesh.edges.len(), mesh.open_edges()), (12, 0));
-        let shared: Vec<_> = mesh.edges.iter().filter(|edge| edge.vertices == [0, 1]).map(|edge| edge.faces).collect();
+        let shared: Vec<_> =
+            mesh.edges.iter().filter(|edge| edge.vertices == [0, 1]).map(|edge| edge.faces).collect();
         assert_eq!(shared, [[0, 1], [4, 5]]);
     }
 
     #[test]
     fn three_faces_on_one_line_leave_one_open() {
         let mesh = mesh(5, &[[0, 1, 2], [0, 1, 3], [1, 0, 4]]);
-        let shared: Vec<_> = mesh.edges.iter().filter(|edge| edge.vertices == [0, 1]).map(|edge| edge.faces).collect();
+        let shared: Vec<_> =
+            mesh.edges.iter().filter(|edge| edge.vertices == [0, 1]).map(|edge| edge.faces).collect();
         assert_eq!(shared, [[0, 2], [1, Edge::OPEN]]);
     }
 

@@ -1,7 +1,16 @@
-//! Mesh to layers of loops.
+#![doc = include_str!("../README.md")]
 
-use shape::TriangleMesh;
-use skein::{Choice, Error, Machine, Micron, Notes, Section, Settings, Slices};
+mod bridge;
+mod loops;
+mod planes;
+
+use rayon::prelude::*;
+use shape::solid::{Sections, planes_over_level_faces};
+use shape::{Bounds, Point, Point3, Ring, TriangleMesh};
+use skein::{
+    Bead, Choice, Direction, Error, Facts, Machine, Micron, Notes, RotatedLoopLayer, Section, Settings,
+    Slices,
+};
 
 /// Cuts a part into layers.
 #[derive(Clone, Debug, Settings)]
@@ -48,7 +57,174 @@ impl Carve {
     ///
     /// # Errors
     /// When there is nothing to print, or the part does not fit the machine.
-    pub fn carve(&self, _mesh: &TriangleMesh, _machine: &Machine, _notes: &mut Notes) -> Result<Slices, Error> {
-        Err(Error::new("under construction"))
+    pub fn carve(&self, mesh: &TriangleMesh, machine: &Machine, notes: &mut Notes) -> Result<Slices, Error> {
+        self.check_bead(machine, notes)?;
+        let Bounds { min, max } = mesh.bounds();
+        let slabs = planes::slabs(Micron(max.z - min.z), self.first_layer_height, self.layer_height)?;
+        let shift = self.shift(min, max, machine);
+        let bounds = Bounds { min: moved(min, shift), max: moved(max, shift) };
+        fits(&bounds, machine)?;
+        // The part is cut where it lies and its loops are moved: a million vertices need not be.
+        let planes: Vec<i32> = slabs.iter().map(|slab| slab.middle.0 + min.z).collect();
+        let sections = Sections::new(mesh, &planes);
+        let tolerance = (self.bead_width.um() / 100.0).min(SIMPLIFY);
+        let cut: Vec<(Vec<Ring>, Notes)> = (0..slabs.len())
+            .into_par_iter()
+            .map(|layer| {
+                let mut remarks = Notes::default();
+                let loops = loops::of_chains(
+                    sections.at(layer),
+                    self.close_gaps.um(),
+                    tolerance,
+                    layer,
+                    &mut remarks,
+                );
+                (loops.into_iter().map(|ring| slid(ring, shift)).collect(), remarks)
+            })
+            .collect();
+        let mut slices = Slices { facts: self.facts(machine), bounds, ..Slices::default() };
+        let mut empty = 0;
+        for (slab, (loops, remarks)) in slabs.iter().zip(cut) {
+            notes.append(remarks);
+            empty += usize::from(loops.is_empty());
+            let thickness = (slab.height != self.layer_height).then_some(slab.height);
+            slices.layers.push(RotatedLoopLayer { z: slab.middle, thickness, rotation: None, loops });
+        }
+        if empty == slices.layers.len() {
+            return Err(Error::new("the part has no volume: no layer has an outline")
+                .hint("a surface of one skin cannot be printed as a solid; give it a thickness"));
+        }
+        if self.find_bridges {
+            self.find_bridges(&mut slices, mesh, &planes);
+        }
+        Ok(slices)
+    }
+
+    /// Settings that contradict each other are refused, doubtful ones reported.
+    fn check_bead(&self, machine: &Machine, notes: &mut Notes) -> Result<(), Error> {
+        let high = self.layer_height.max(self.first_layer_height);
+        if self.bead_section == Section::Stadium && self.bead_width < high {
+            return Err(Error::new(format!(
+                "a stadium bead {} mm wide cannot be {high} mm high",
+                self.bead_width
+            ))
+            .hint(
+                "set carve.bead_width higher, carve.layer_height lower, or carve.bead_section = \"ellipse\"",
+            ));
+        }
+        if self.bead_width.0 > 3 * machine.nozzle.0 {
+            notes.say(format!(
+                "a bead of {} mm is wide for a nozzle of {} mm",
+                self.bead_width, machine.nozzle
+            ));
+        }
+        if self.layer_height > machine.nozzle {
+            notes.say(format!(
+                "layers of {} mm are not pressed by a nozzle of {} mm",
+                self.layer_height, machine.nozzle
+            ));
+        }
+        Ok(())
+    }
+
+    fn facts(&self, machine: &Machine) -> Facts {
+        let bead = Bead { width: self.bead_width, height: self.layer_height, section: self.bead_section };
+        Facts {
+            decimals: Some(Micron::PLACES),
+            layer_height: Some(self.layer_height),
+            first_layer_height: Some(self.first_layer_height),
+            nozzle: Some(machine.nozzle),
+            e_unit: Some(machine.e_unit),
+            bead_section: Some(self.bead_section),
+            infill_width: Some(bead.spacing()),
+            bead_width: Some(self.bead_width),
+            ..Facts::default()
+        }
+    }
+
+    /// How far the part moves to where it is printed.
+    fn shift(&self, min: Point3, max: Point3, machine: &Machine) -> Point3 {
+        let (x, y) = match self.place {
+            Place::Keep => (0, 0),
+            Place::Bed => {
+                let (left, front) = machine.least();
+                let middle = |low: i32, high: i32| ((i64::from(low) + i64::from(high)).div_euclid(2)) as i32;
+                (
+                    left + machine.bed.x.0 / 2 - middle(min.x, max.x),
+                    front + machine.bed.y.0 / 2 - middle(min.y, max.y),
+                )
+            }
+        };
+        Point3 { x, y, z: -min.z }
+    }
+
+    fn find_bridges(&self, slices: &mut Slices, mesh: &TriangleMesh, planes: &[i32]) {
+        let candidates = planes_over_level_faces(mesh, planes, bridge::REACH);
+        let directions: Vec<Option<Direction>> = (0..slices.layers.len())
+            .into_par_iter()
+            .map(|index| {
+                let below = slices.layers.get(index.checked_sub(1)?)?;
+                if !candidates[index] || below.loops.is_empty() {
+                    return None;
+                }
+                bridge::direction(&slices.layers[index].loops, &below.loops, self.layer_height.um())
+            })
+            .collect();
+        for (layer, rotation) in slices.layers.iter_mut().zip(directions) {
+            layer.rotation = rotation;
+        }
     }
 }
+
+/// Corners of the mesh nearer than this to a straight side are dropped: a hundredth of a bead, but never more than
+/// five microns, which no nozzle of a millimetre can show.
+const SIMPLIFY: f64 = 5.0;
+
+fn moved(point: Point3, by: Point3) -> Point3 {
+    Point3 { x: point.x + by.x, y: point.y + by.y, z: point.z + by.z }
+}
+
+fn slid(mut ring: Ring, by: Point3) -> Ring {
+    for point in &mut ring.0 {
+        *point = Point::new(point.x + by.x, point.y + by.y);
+    }
+    ring
+}
+
+/// Whether the part has its place on the machine.
+fn fits(bounds: &Bounds, machine: &Machine) -> Result<(), Error> {
+    let (left, front) = machine.least();
+    let size = |low: i32, high: i32| Micron(high - low);
+    let part = [
+        size(bounds.min.x, bounds.max.x),
+        size(bounds.min.y, bounds.max.y),
+        size(bounds.min.z, bounds.max.z),
+    ];
+    let bed = [machine.bed.x, machine.bed.y, machine.bed.z];
+    if part.iter().zip(bed).any(|(part, bed)| *part > bed) {
+        let [x, y, z] = part;
+        return Err(Error::new(format!(
+            "the part is {x} × {y} × {z} mm, the machine has room for {} × {} × {} mm",
+            bed[0], bed[1], bed[2]
+        ))
+        .hint("scale or turn the part, check the unit of its file, or set machine.bed"));
+    }
+    let inside = bounds.min.x >= left
+        && bounds.min.y >= front
+        && bounds.max.x <= left + machine.bed.x.0
+        && bounds.max.y <= front + machine.bed.y.0;
+    if !inside {
+        return Err(Error::new(format!(
+            "the part lies at x {}…{}, y {}…{} mm, partly beside the bed",
+            Micron(bounds.min.x),
+            Micron(bounds.max.x),
+            Micron(bounds.min.y),
+            Micron(bounds.max.y)
+        ))
+        .hint("carve.place = \"bed\" puts it on the middle of the bed"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,12 @@
-//! How much clay each move pushes out.
+#![doc = include_str!("../README.md")]
 
-use skein::{Choice, Error, Notes, Ratio, Settings, Skein, Stage};
+mod meter;
+#[cfg(test)]
+mod tests;
+
+use meter::{Meter, Nozzle, Total};
+use rayon::prelude::*;
+use skein::{Choice, Error, Layer, Line, Notes, Place, Ratio, Reader, Settings, Skein, Stage, Tag};
 
 /// Puts an E word on every move that lays clay.
 #[derive(Clone, Debug, Settings)]
@@ -8,7 +14,8 @@ pub struct Dimension {
     /// Whether an E word counts from the last one or from the start of the print.
     #[setting(default = Counting::Relative)]
     pub counting: Counting,
-    /// Multiplies all clay: found by weighing what comes out.
+    /// Multiplies all clay: found by weighing what comes out. Too little leaves gaps between the beads, too much heaps
+    /// clay up in front of the nozzle.
     #[setting(default = 1.0, min = 0.1, max = 10.0)]
     pub flow: Ratio,
 }
@@ -25,7 +32,67 @@ pub enum Counting {
 impl Stage for Dimension {
     const NAME: &'static str = "dimension";
 
-    fn craft(&self, skein: Skein, _notes: &mut Notes) -> Result<Skein, Error> {
+    /// Three steps, so that layers run side by side and the result is the same on every number of cores: the clay of
+    /// each layer by itself, then what lies below each layer, then the E words of each layer.
+    fn craft(&self, mut skein: Skein, _notes: &mut Notes) -> Result<Skein, Error> {
+        let facts = skein.facts()?;
+        let meter = Meter::new(&facts, self.flow, self.counting)?;
+        let usual = facts.layer_height()?;
+
+        let mut nozzle = Nozzle::default();
+        let mut below = meter.write(&mut skein.head, usual, nozzle, Total::default())?;
+        nozzle = nozzle.after(&skein.head);
+        let nozzles = entering(&mut nozzle, &skein.layers);
+        let clay = skein
+            .layers
+            .par_iter()
+            .zip(&nozzles)
+            .enumerate()
+            .map(|(index, (layer, nozzle))| {
+                let clay = meter.measure(&layer.lines, layer.height(&facts)?, *nozzle);
+                clay.map_err(|error| error.at(Place::Layer(index)))
+            })
+            .collect::<Result<Vec<Total>, Error>>()?;
+        let mut bases = Vec::with_capacity(clay.len());
+        for clay in clay {
+            bases.push(below);
+            below = below + clay;
+        }
+        skein.each(|index, layer| {
+            let height = layer.height(&facts)?;
+            meter.write(&mut layer.lines, height, nozzles[index], bases[index]).map(|_| ())
+        })?;
+        meter.write(&mut skein.tail, usual, nozzle, below)?;
+        self.announce(&mut skein)?;
         Ok(skein)
     }
+}
+
+impl Dimension {
+    /// Says in the file how E counts, and from zero. Marlin's G90 also makes E absolute, so this comes after the header
+    /// with its G90.
+    fn announce(&self, skein: &mut Skein) -> Result<(), Error> {
+        let mode = match self.counting {
+            Counting::Relative => "M83",
+            Counting::Absolute => "M82",
+        };
+        let mut reader = Reader::default();
+        let lines = [reader.line(mode.as_bytes())?, reader.line(b"G92 E0")?];
+        let crafting = skein.head.iter().position(|line| *line == Line::Open(Tag::Crafting));
+        let index = crafting.map_or(skein.head.len(), |index| index + 1);
+        skein.head.splice(index..index, lines);
+        Ok(())
+    }
+}
+
+/// Where the nozzle is and how much flows when each layer begins; afterwards `nozzle` is where the last layer ends.
+fn entering(nozzle: &mut Nozzle, layers: &[Layer]) -> Vec<Nozzle> {
+    layers
+        .iter()
+        .map(|layer| {
+            let entering = *nozzle;
+            *nozzle = entering.after(&layer.lines);
+            entering
+        })
+        .collect()
 }

@@ -1,11 +1,14 @@
-//! How fast everything moves.
+#![doc = include_str!("../README.md")]
 
-use skein::{Error, Feed, Notes, Ratio, Settings, Skein, Stage};
+use skein::{Error, Feature, Feed, Line, Notes, Nozzle, Ratio, Settings, Skein, Stage, Tag};
+
+#[cfg(test)]
+mod tests;
 
 /// Puts a feed rate on every move.
 #[derive(Clone, Debug, Settings)]
 pub struct Speed {
-    /// The speed at which beads are laid.
+    /// The speed at which beads are laid. Slower presses better and shakes less; faster is done before the rim dries.
     #[setting(default = 30.0, min = 0.1, max = 1000.0, unit = "mm/s")]
     pub feed: Feed,
     /// The speed of travels. Faster leaves thinner strings and shakes wet walls more.
@@ -14,10 +17,12 @@ pub struct Speed {
     /// The speed of the first layer, as a share of the others'. Slower sticks better.
     #[setting(default = 0.5, min = 0.05, max = 2.0)]
     pub first_layer: Ratio,
-    /// The speed of the outermost wall, as a share.
+    /// The speed of the outermost wall, as a share. Less makes a cleaner face, but clay likes a feed that stays the
+    /// same: each change of it shows as a thicker or thinner bead until the pressure has followed.
     #[setting(default = 1.0, min = 0.05, max = 2.0)]
     pub perimeter: Ratio,
-    /// The speed on layers that bridge a gap, as a share.
+    /// The speed on layers that bridge a gap, as a share. Less gives the bead time to catch hold; more pulls it
+    /// straight.
     #[setting(default = 1.0, min = 0.05, max = 2.0)]
     pub bridge: Ratio,
 }
@@ -25,7 +30,69 @@ pub struct Speed {
 impl Stage for Speed {
     const NAME: &'static str = "speed";
 
-    fn craft(&self, skein: Skein, _notes: &mut Notes) -> Result<Skein, Error> {
+    fn craft(&self, mut skein: Skein, _notes: &mut Notes) -> Result<Skein, Error> {
+        let mut facts = skein.facts()?;
+        facts.operating_feed = Some(self.feed);
+        facts.travel_feed = Some(self.travel_feed);
+        skein.state(&facts)?;
+        // Whatever moves before the first layer lies on the bed like the first layer.
+        self.pace(0, &mut skein.head)?;
+        self.pace(usize::MAX, &mut skein.tail)?;
+        skein.each(|index, layer| self.pace(index, &mut layer.lines))?;
         Ok(skein)
+    }
+}
+
+impl Speed {
+    /// Gives the moves of one layer their feed.
+    ///
+    /// As on the machine a feed holds until the next one, so it is said only when it changes. The first travel and the
+    /// first bead of a layer always say theirs: a layer can be moved, copied or left out and is still right.
+    fn pace(&self, layer: usize, lines: &mut [Line]) -> Result<(), Error> {
+        let mut nozzle = Nozzle::default();
+        let mut bridge = false;
+        let (mut has_travelled, mut has_laid) = (false, false);
+        for line in lines {
+            if let Line::Move(step) = line {
+                let said = if nozzle.on { &mut has_laid } else { &mut has_travelled };
+                let feed = match step.feed {
+                    Some(feed) => feed,
+                    None if nozzle.on => self.bead(layer, nozzle.feature, bridge)?,
+                    None => self.travel_feed,
+                };
+                if nozzle.feed != Some(feed) || !*said {
+                    step.feed = Some(feed);
+                }
+                *said = true;
+            }
+            match line {
+                Line::Rotation(Tag::BridgeRotation, _) => bridge = true,
+                Line::Close(Tag::BridgeRotation) => bridge = false,
+                _ => {}
+            }
+            nozzle.follow(line);
+        }
+        Ok(())
+    }
+
+    /// The feed of a bead. All shares are multiplied first and rounded once.
+    fn bead(&self, layer: usize, feature: Feature, bridge: bool) -> Result<Feed, Error> {
+        let mut share = 1.0;
+        if layer == 0 {
+            share *= self.first_layer.f64();
+        }
+        if matches!(feature, Feature::Edge(_)) {
+            share *= self.perimeter.f64();
+        }
+        if bridge {
+            share *= self.bridge.f64();
+        }
+        Feed::from_mm_per_s(self.feed.mm_per_s() * share).ok_or_else(|| {
+            Error::new(format!(
+                "a bead at {} mm/s times {share} has no speed a machine can move at",
+                self.feed.mm_per_s()
+            ))
+            .hint("bring `feed` and its shares closer to one another")
+        })
     }
 }

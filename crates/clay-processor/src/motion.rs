@@ -1,0 +1,265 @@
+//! The printer's state: units, modes, origin and position; turns lines into moves.
+
+use gcode::{Command, Line, Words};
+
+use crate::arc::arc_length;
+
+/// Below this a length is rounding of the sums, mm.
+const EPSILON: f64 = 1e-6;
+/// Half of the last decimal that slicers write: below this Z stays, mm.
+pub(crate) const EPSILON_Z: f64 = 0.0005;
+const MM_PER_INCH: f64 = 25.4;
+
+/// What a line does to the printer.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Action {
+    /// Nothing that counts here.
+    Nothing,
+    /// The nozzle or the ram moves.
+    Move(Move),
+    /// The printer seeks its end stops.
+    Home,
+    /// Coordinates are set without a move.
+    Reset,
+}
+
+/// One move.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Move {
+    pub(crate) class: Class,
+    /// The way in XY as far as it is known, squared, mm²: most moves are never asked for their length, and a root is
+    /// slow.
+    flat_squared: f64,
+    /// The change of Z as far as it is known, mm.
+    pub(crate) rise: f64,
+    /// Z before; nothing if unknown.
+    pub(crate) from: Option<f64>,
+    /// Z after; nothing if unknown.
+    pub(crate) to: Option<f64>,
+}
+
+impl Move {
+    /// The way in XY as far as it is known, mm.
+    pub(crate) fn flat_length(&self) -> f64 {
+        self.flat_squared.sqrt()
+    }
+
+    /// The way in XYZ as far as it is known, mm.
+    pub(crate) fn length(&self) -> f64 {
+        (self.flat_squared + self.rise * self.rise).sqrt()
+    }
+}
+
+/// What a move is to the clay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Class {
+    /// Prints at one height.
+    Flat,
+    /// Prints while Z changes or becomes known.
+    Slope,
+    /// Moves in XY without clay, at one height.
+    Travel,
+    /// Moves in XY without clay while Z changes or becomes known.
+    DiagonalTravel,
+    /// Moves in Z alone, without clay.
+    Vertical,
+    /// Presses or draws clay in one place, at rest or rising.
+    Prime,
+    /// Changes nothing.
+    Still,
+}
+
+/// Units, modes and position.
+#[derive(Clone, Debug)]
+pub(crate) struct Motion {
+    x: Axis,
+    y: Axis,
+    z: Axis,
+    e: f64,
+    scale: f64,
+    relative: bool,
+    relative_e: bool,
+    e_follows: bool,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Axis {
+    at: f64,
+    known: bool,
+}
+
+/// How an axis moved.
+#[derive(Clone, Copy, Debug, Default)]
+struct Step {
+    by: f64,
+    becomes_known: bool,
+}
+
+impl Motion {
+    /// A printer that was just switched on: absolute millimetres, the position unknown. If `e_follows`, `G90` and `G91`
+    /// hold for E too.
+    pub(crate) fn new(e_follows: bool) -> Self {
+        let unknown = Axis::default();
+        Self {
+            x: unknown,
+            y: unknown,
+            z: unknown,
+            e: 0.0,
+            scale: 1.0,
+            relative: false,
+            relative_e: false,
+            e_follows,
+        }
+    }
+
+    /// Does what `line` says.
+    #[inline]
+    pub(crate) fn obey(&mut self, line: &Line) -> Action {
+        let Some(command) = line.command else { return Action::Nothing };
+        match command {
+            G0 | G1 => Action::Move(self.advance(&line.words, None)),
+            G2 => Action::Move(self.advance(&line.words, Some(Turn::Clockwise))),
+            G3 => Action::Move(self.advance(&line.words, Some(Turn::Counter))),
+            other => self.set(other, &line.words),
+        }
+    }
+
+    /// Z is relative.
+    pub(crate) fn is_relative(&self) -> bool {
+        self.relative
+    }
+
+    /// Lengths are in inches.
+    pub(crate) fn is_inches(&self) -> bool {
+        self.scale != 1.0
+    }
+
+    fn set(&mut self, command: Command, words: &Words) -> Action {
+        match command {
+            G20 => self.scale = MM_PER_INCH,
+            G21 => self.scale = 1.0,
+            G28 => {
+                self.home(words);
+                return Action::Home;
+            }
+            G90 | G91 => {
+                self.relative = command == G91;
+                if self.e_follows {
+                    self.relative_e = self.relative;
+                }
+            }
+            G92 => {
+                for (letter, axis) in [(b'X', &mut self.x), (b'Y', &mut self.y), (b'Z', &mut self.z)] {
+                    if let Some(value) = words.get(letter) {
+                        *axis = Axis { at: value * self.scale, known: true };
+                    }
+                }
+                self.e = words.get(b'E').map_or(self.e, |value| value * self.scale);
+                return Action::Reset;
+            }
+            M82 => self.relative_e = false,
+            M83 => self.relative_e = true,
+            _ => {}
+        }
+        Action::Nothing
+    }
+
+    /// The axes named, or all, go where only the printer knows.
+    fn home(&mut self, words: &Words) {
+        let named = |letter| words.has(letter) || words.is_bare(letter);
+        let all = !b"XYZ".iter().any(|&letter| named(letter));
+        for (letter, axis) in [(b'X', &mut self.x), (b'Y', &mut self.y), (b'Z', &mut self.z)] {
+            if all || named(letter) {
+                axis.known = false;
+            }
+        }
+    }
+
+    #[inline]
+    fn advance(&mut self, words: &Words, turn: Option<Turn>) -> Move {
+        let (scale, relative) = (self.scale, self.relative);
+        let from = self.height();
+        let x = self.x.step(words.get(b'X'), scale, relative);
+        let y = self.y.step(words.get(b'Y'), scale, relative);
+        let z = self.z.step(words.get(b'Z'), scale, relative);
+        let clay = match words.get(b'E') {
+            None => 0.0,
+            Some(value) if self.relative_e => {
+                self.e += value * scale;
+                value * scale
+            }
+            Some(value) => {
+                let clay = value * scale - self.e;
+                self.e = value * scale;
+                clay
+            }
+        };
+        let flat_squared = match turn {
+            None => x.by * x.by + y.by * y.by,
+            Some(turn) => {
+                let length = arc_length((x.by, y.by), words, scale, turn);
+                length * length
+            }
+        };
+
+        let goes = flat_squared > EPSILON * EPSILON || x.becomes_known || y.becomes_known;
+        let climbs = z.by.abs() > EPSILON_Z || z.becomes_known;
+        let class = match (goes, climbs, clay > EPSILON) {
+            (true, false, true) => Class::Flat,
+            (true, true, true) => Class::Slope,
+            (true, false, false) => Class::Travel,
+            (true, true, false) => Class::DiagonalTravel,
+            (false, true, false) => Class::Vertical,
+            (false, _, true) => Class::Prime,
+            (false, false, false) if clay < -EPSILON => Class::Prime,
+            (false, false, false) => Class::Still,
+        };
+        Move { class, flat_squared, rise: z.by, from, to: self.height() }
+    }
+
+    #[inline]
+    fn height(&self) -> Option<f64> {
+        self.z.known.then_some(self.z.at)
+    }
+}
+
+impl Axis {
+    #[inline]
+    fn step(&mut self, word: Option<f64>, scale: f64, relative: bool) -> Step {
+        let Some(value) = word else { return Step::default() };
+        let value = value * scale;
+        if relative {
+            self.at += value;
+            return Step { by: value, becomes_known: false };
+        }
+        let before = *self;
+        *self = Self { at: value, known: true };
+        if before.known {
+            Step { by: value - before.at, becomes_known: false }
+        } else {
+            Step { by: 0.0, becomes_known: true }
+        }
+    }
+}
+
+/// Which way an arc turns, seen from above.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Turn {
+    /// `G2`.
+    Clockwise,
+    /// `G3`.
+    Counter,
+}
+
+const G0: Command = Command::g(0);
+const G1: Command = Command::g(1);
+const G2: Command = Command::g(2);
+const G3: Command = Command::g(3);
+const G20: Command = Command::g(20);
+const G21: Command = Command::g(21);
+const G28: Command = Command::g(28);
+const G90: Command = Command::g(90);
+const G91: Command = Command::g(91);
+const G92: Command = Command::g(92);
+const M82: Command = Command::m(82);
+const M83: Command = Command::m(83);

@@ -1,0 +1,146 @@
+//! Feeds both models line by line.
+
+use gcode::{Line, find_byte, without_bom, without_cr};
+
+use crate::comments::Comments;
+use crate::habits::Habits;
+use crate::letter::Letter;
+use crate::machine::Machine;
+use crate::motion::{Class, Motion};
+use crate::report::Report;
+
+/// What is in a whole file.
+pub fn process(text: &[u8]) -> Report {
+    let mut processor = Processor::new(Options::default());
+    processor.push(text);
+    processor.finish()
+}
+
+/// What a file does not say about the printer it is for.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Options {
+    /// `G90` and `G91` hold for E too, as in Marlin. Otherwise E obeys `M82` and `M83` alone.
+    pub e_follows_g90: bool,
+}
+
+/// Takes a file piece by piece, for instance while it is written. Keeps its results and no text but an unfinished line.
+///
+/// ```
+/// use clay_processor::{Options, Processor};
+///
+/// let mut processor = Processor::new(Options::default());
+/// processor.push(b"G1 Z1\nG1 X1");
+/// processor.push(b"0 E1\nG1 X0 E2");
+/// assert_eq!(processor.finish().machine.layers.len(), 1);
+/// ```
+#[derive(Clone, Debug)]
+pub struct Processor {
+    line: Line,
+    index: usize,
+    /// The beginning of a line whose end has not come yet.
+    unfinished: Vec<u8>,
+    comments: Comments,
+    letter: Letter,
+    machine: Machine,
+    habits: Habits,
+}
+
+impl Default for Processor {
+    fn default() -> Self {
+        Self::new(Options::default())
+    }
+}
+
+impl Processor {
+    /// A processor at the beginning of a file.
+    pub fn new(options: Options) -> Self {
+        Self {
+            line: Line::default(),
+            index: 0,
+            unfinished: Vec::new(),
+            comments: Comments::default(),
+            letter: Letter::default(),
+            machine: Machine::new(Motion::new(options.e_follows_g90)),
+            habits: Habits::default(),
+        }
+    }
+
+    /// Takes the next piece of the file. It may end anywhere.
+    pub fn push(&mut self, text: &[u8]) {
+        let mut rest = text;
+        while let Some(end) = find_byte(b'\n', rest) {
+            let (line, after) = rest.split_at(end);
+            rest = after.get(1..).unwrap_or_default();
+            if self.unfinished.is_empty() {
+                self.take(without_cr(line));
+            } else {
+                self.unfinished.extend_from_slice(line);
+                self.take_unfinished();
+            }
+        }
+        self.unfinished.extend_from_slice(rest);
+    }
+
+    /// Takes the next whole line, without its LF. What [`push`](Self::push) left unfinished is a line before it.
+    pub fn feed_line(&mut self, line: &[u8]) {
+        if !self.unfinished.is_empty() {
+            self.take_unfinished();
+        }
+        self.take(without_cr(line));
+    }
+
+    /// The file is at its end.
+    pub fn finish(mut self) -> Report {
+        // A byte order mark alone is an empty file.
+        let is_line = self.index > 0 || !without_bom(&self.unfinished).is_empty();
+        if !self.unfinished.is_empty() && is_line {
+            self.take_unfinished();
+        }
+        self.letter.finish();
+        self.machine.finish();
+        let notes = self.habits.notes(&self.letter, &self.machine);
+
+        let (head, tail) = self.comments.ends();
+        let (mut letter, mut machine) = (self.letter.model, self.machine.model);
+        for model in [&mut letter, &mut machine] {
+            model.first_part_comments_end = head;
+            model.last_part_comments_start = tail;
+        }
+        let ok = machine
+            .layers
+            .iter()
+            .chain(&machine.spirals)
+            .all(|run| run.height.is_some_and(|height| height > 0.0));
+        Report {
+            letter,
+            machine,
+            notes,
+            lines: self.index,
+            extruding_lines: self.machine.extruding_lines,
+            interruptions: self.machine.interruptions,
+            ok,
+        }
+    }
+
+    fn take_unfinished(&mut self) {
+        let mut line = std::mem::take(&mut self.unfinished);
+        self.take(without_cr(&line));
+        line.clear();
+        self.unfinished = line;
+    }
+
+    #[inline]
+    fn take(&mut self, text: &[u8]) {
+        let text = if self.index == 0 { without_bom(text) } else { text };
+        self.line.read(text);
+        self.comments.feed(self.line.kind);
+        let class = self.machine.feed(self.index, &self.line);
+        let prints = matches!(class, Some(Class::Flat | Class::Slope));
+        let movement = self.letter.feed(self.index, &self.line, prints);
+        match class {
+            Some(class) => self.habits.watch_move(self.index, &self.line, class, movement, &self.machine),
+            None => self.habits.watch_still(self.index, &self.line),
+        }
+        self.index += 1;
+    }
+}

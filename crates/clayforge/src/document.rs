@@ -1,0 +1,115 @@
+//! The document that flows down the chain, in whichever of its forms it is.
+
+use shape::TriangleMesh;
+use skein::{Error, Signature, Skein, Slices};
+use std::fmt;
+
+/// What stands between two stages.
+#[derive(Clone, Debug)]
+pub enum Document {
+    /// A part as triangles.
+    Mesh(TriangleMesh),
+    /// The loops of each layer.
+    Slices(Slices),
+    /// Tagged G-code.
+    Skein(Skein),
+    /// The file for the machine. Its text went to the sink while it was made and is not kept.
+    Gcode,
+}
+
+/// The forms of a document.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Form {
+    /// [`Document::Mesh`], as text an STL file.
+    Mesh,
+    /// [`Document::Slices`], as text an SVG drawing.
+    Slices,
+    /// [`Document::Skein`], as text tagged G-code.
+    Skein,
+    /// [`Document::Gcode`], as text what the machine reads.
+    Gcode,
+}
+
+impl Form {
+    /// How a file of this form ends.
+    pub fn extension(self) -> &'static str {
+        match self {
+            Self::Mesh => "stl",
+            Self::Slices => "svg",
+            Self::Skein | Self::Gcode => "gcode",
+        }
+    }
+
+    /// Guesses the form of a text from how it begins; only the forms that a stage reads.
+    pub fn of(text: &[u8]) -> Self {
+        let start = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start();
+        let head = &text[..text.len().min(1 << 16)];
+        let has = |needle: &[u8]| head.windows(needle.len()).any(|window| window == needle);
+        if start.starts_with(b"<") {
+            Self::Slices
+        } else if has(b"(<extruderInitialization>)") || has(b"(</extruderInitialization>)") {
+            Self::Skein
+        } else {
+            Self::Mesh
+        }
+    }
+}
+
+impl fmt::Display for Form {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Mesh => "a mesh",
+            Self::Slices => "the SVG of carve",
+            Self::Skein => "a skein",
+            Self::Gcode => "G-code",
+        })
+    }
+}
+
+impl Document {
+    /// Its form.
+    pub fn form(&self) -> Form {
+        match self {
+            Self::Mesh(_) => Form::Mesh,
+            Self::Slices(_) => Form::Slices,
+            Self::Skein(_) => Form::Skein,
+            Self::Gcode => Form::Gcode,
+        }
+    }
+
+    /// Its text, if it has one that is kept.
+    pub fn text(&self) -> Option<Vec<u8>> {
+        match self {
+            Self::Slices(slices) => Some(slices.write()),
+            Self::Skein(skein) => Some(skein.write()),
+            Self::Mesh(_) | Self::Gcode => None,
+        }
+    }
+
+    /// Whether a stage has been here already.
+    pub fn has_done(&self, stage: &str) -> bool {
+        match self {
+            Self::Slices(slices) => slices.done.iter().any(|signature| signature.stage == stage),
+            Self::Skein(skein) => skein.has_done(stage),
+            Self::Mesh(_) | Self::Gcode => false,
+        }
+    }
+
+    /// Says in the header that a stage has been here.
+    pub(crate) fn sign(&mut self, signature: Signature) -> Result<(), Error> {
+        match self {
+            Self::Slices(slices) => slices.done.push(signature),
+            Self::Skein(skein) => skein.sign(&signature)?,
+            Self::Mesh(_) | Self::Gcode => {}
+        }
+        Ok(())
+    }
+
+    /// Checks the laws of its form.
+    pub(crate) fn verify(&self) -> Result<(), Error> {
+        match self {
+            Self::Skein(skein) => skein.verify(),
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,292 @@
+//! Runs the stages: in memory from a part to the file, or one stage from text to text. Both go through `step`.
+
+use crate::draw::{Drawing, draw};
+use crate::figures::Figures;
+use crate::profile::{Profile, Station};
+use crate::work::{Bench, Sink};
+use crate::{Document, Form};
+use clay_processor::{Options, Processor, Report};
+use skein::{Error, Notes, Place, Signature, Skein, Slices, Value};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+
+/// What happens while a part is sliced, for progress bars, clocks and dumps.
+pub enum Event<'a> {
+    /// A stage begins.
+    Started {
+        /// The stage; `stl` is the reading of the part.
+        name: &'static str,
+    },
+    /// A stage has ended.
+    Done {
+        /// The stage.
+        name: &'static str,
+        /// Its number in the chain, from one; 0 is the reading of the part.
+        number: usize,
+        /// How many stages the chain has.
+        of: usize,
+        /// What it made.
+        document: &'a Document,
+    },
+}
+
+/// Watches a slicing; an error stops it.
+pub type Watch<'a> = &'a mut dyn FnMut(Event<'_>) -> Result<(), Error>;
+
+/// What is known after a part was sliced.
+#[derive(Clone, Debug, Default)]
+pub struct Sliced {
+    /// What the stages had to say.
+    pub notes: Notes,
+    /// Lengths, clay and time; not when the slicing stopped before the skein.
+    pub figures: Option<Figures>,
+    /// Layers and spirals that a reader of the finished file finds; not when the slicing stopped before it.
+    pub found: Option<Found>,
+    /// The form of what went to the sink.
+    pub form: Option<Form>,
+}
+
+/// What the letter model of the clay processor finds in the finished file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Found {
+    /// Layers.
+    pub layers: usize,
+    /// Spirals.
+    pub spirals: usize,
+}
+
+/// Slices the bytes of an STL file; what the last stage makes goes to the sink, piece by piece.
+///
+/// The chain ends early behind the stage `until`. The bytes are dropped as soon as they are read.
+///
+/// # Errors
+/// When the part, the profile or a stage refuses; an error that names nobody is about the part.
+pub fn slice(
+    part: impl AsRef<[u8]>,
+    profile: &Profile,
+    until: Option<&str>,
+    watch: Watch<'_>,
+    sink: Sink<'_>,
+) -> Result<Sliced, Error> {
+    let mut sliced = Sliced::default();
+    let chain = profile.chain()?;
+    if let Some(last) = until.filter(|last| !chain.iter().any(|station| station.entry.name == *last)) {
+        return Err(Error::new(format!("the chain has no stage `{last}`")).hint("clayforge stages").said_by("--until"));
+    }
+    profile.check(&mut sliced.notes)?;
+    watch(Event::Started { name: "stl" })?;
+    let mut document = Document::Mesh(read_mesh(part.as_ref(), &mut sliced.notes)?);
+    drop(part);
+    watch(Event::Done { name: "stl", number: 0, of: chain.len(), document: &document })?;
+    for (index, station) in chain.iter().enumerate() {
+        let name = station.entry.name;
+        watch(Event::Started { name })?;
+        let mut bench = Bench { machine: &profile.machine, notes: &mut sliced.notes, sink: &mut *sink };
+        document = if station.work.forms().1 == Form::Gcode {
+            let (figures, found) = finish(station, document, profile, &mut bench)?;
+            sliced.figures = Some(figures);
+            sliced.found = Some(found);
+            Document::Gcode
+        } else {
+            step(station, document, &mut bench)?
+        };
+        watch(Event::Done { name, number: index + 1, of: chain.len(), document: &document })?;
+        if until == Some(name) {
+            break;
+        }
+    }
+    if let Document::Skein(skein) = &document {
+        sliced.figures = Some(figures(skein, profile)?);
+    }
+    if let Some(text) = document.text() {
+        sink(&text)?;
+    }
+    sliced.form = Some(document.form());
+    Ok(sliced)
+}
+
+/// Runs one stage on a text; the text that it makes goes to the sink.
+///
+/// A stage that is switched off, or that the text has been through already, gives the text back as it is.
+///
+/// # Errors
+/// When there is no such stage, or the text, the profile or the stage refuses.
+pub fn craft(stage: &str, text: &[u8], profile: &Profile, notes: &mut Notes, sink: Sink<'_>) -> Result<(), Error> {
+    let station = profile.station(stage).ok_or_else(|| {
+        Error::new(format!("there is no stage `{stage}`")).hint("all stages: clayforge stages").said_by("craft")
+    })?;
+    profile.check(notes)?;
+    let name = station.entry.name;
+    let (takes, gives) = station.work.forms();
+    let form = Form::of(text);
+    if !station.active || (form == gives && takes != gives && read(form, text, notes)?.has_done(name)) {
+        return sink(text);
+    }
+    let document = read(takes, text, notes).map_err(|error| error.said_by(name))?;
+    if document.has_done(name) {
+        return sink(text);
+    }
+    let mut bench = Bench { machine: &profile.machine, notes, sink };
+    let document = step(station, document, &mut bench)?;
+    match document.text() {
+        Some(text) => sink(&text),
+        None => Ok(()),
+    }
+}
+
+/// The one place a stage is run, whichever way its document came: craft, sign, verify.
+fn step(station: &Station, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
+    let name = station.entry.name;
+    if !station.active || document.has_done(name) {
+        return Ok(document);
+    }
+    let done = station.work.work(document, bench).map_err(|error| error.said_by(name));
+    bench.notes.said_by(name);
+    let mut document = done?;
+    document.sign(Signature::new(name, &station.work.keys().values())).map_err(|error| error.said_by(name))?;
+    document.verify().map_err(|error| {
+        Error::new(format!("{name} made a skein that breaks a law ({error}); this is our bug, not yours"))
+            .hint("please report it with the part, the profile and the files of --dump")
+            .said_by(name)
+    })?;
+    Ok(document)
+}
+
+/// Counts the skein and writes the file, which a clay processor reads while it is written.
+fn finish(
+    station: &Station,
+    document: Document,
+    profile: &Profile,
+    bench: &mut Bench<'_>,
+) -> Result<(Figures, Found), Error> {
+    let counted = match &document {
+        Document::Skein(skein) => figures(skein, profile)?,
+        _ => Figures::default(),
+    };
+    if counted.threads == 0 {
+        return Err(Error::new("nothing is left to print: no bead was laid")
+            .hint("is the part thinner than a bead, or a stage switched off? --dump DIR shows every stage")
+            .said_by(station.entry.name));
+    }
+    let sink = &mut *bench.sink;
+    let report = std::thread::scope(|scope| {
+        let (send, receive) = sync_channel::<Vec<u8>>(4);
+        let reader = scope.spawn(move || process(receive));
+        let mut tee = Tee { send: Some(send), chunk: Vec::new() };
+        let mut both = |piece: &[u8]| {
+            tee.push(piece);
+            sink(piece)
+        };
+        let mut bench = Bench { machine: bench.machine, notes: &mut *bench.notes, sink: &mut both };
+        let written = step(station, document, &mut bench);
+        tee.close();
+        let report = reader.join().map_err(|_| Error::new("the reader of the finished file broke; this is our bug"));
+        written.and(report)
+    })?;
+    let found = Found { layers: report.letter.layers.len(), spirals: report.letter.spirals.len() };
+    if found.layers != counted.layers && found.spirals == 0 {
+        bench.notes.say(format!(
+            "{} layers have beads, and a reader that goes by the letter finds {} in the file",
+            counted.layers, found.layers
+        ));
+        bench.notes.said_by("check");
+    }
+    Ok((counted, found))
+}
+
+/// Sends what is written to the reader, in pieces that are worth a message.
+struct Tee {
+    send: Option<SyncSender<Vec<u8>>>,
+    chunk: Vec<u8>,
+}
+
+impl Tee {
+    /// Large enough that the messages cost nothing, small enough to stay in the cache.
+    const CHUNK: usize = 256 * 1024;
+
+    fn push(&mut self, piece: &[u8]) {
+        if self.chunk.capacity() == 0 {
+            self.chunk.reserve(Self::CHUNK.max(piece.len()));
+        }
+        self.chunk.extend_from_slice(piece);
+        if self.chunk.len() >= Self::CHUNK {
+            self.flush();
+        }
+    }
+
+    fn flush(&mut self) {
+        if let Some(send) = &self.send {
+            // A reader that is gone is met again when it is joined.
+            let _ = send.send(std::mem::take(&mut self.chunk));
+        }
+    }
+
+    fn close(&mut self) {
+        self.flush();
+        self.send = None;
+    }
+}
+
+fn process(pieces: Receiver<Vec<u8>>) -> Report {
+    let mut processor = Processor::new(Options::default());
+    for piece in pieces {
+        processor.push(&piece);
+    }
+    processor.finish()
+}
+
+fn figures(skein: &Skein, profile: &Profile) -> Result<Figures, Error> {
+    let flow = match profile.get("dimension.flow") {
+        Some((_, Value::Number(flow))) if profile.station("dimension").is_some_and(|station| station.active) => flow,
+        _ => 1.0,
+    };
+    Figures::of(skein, flow, profile.clay.density.f64())
+}
+
+/// Reads a text of a form.
+fn read(form: Form, text: &[u8], notes: &mut Notes) -> Result<Document, Error> {
+    match form {
+        Form::Mesh => read_mesh(text, notes).map(Document::Mesh),
+        Form::Slices => Slices::read(text).map(Document::Slices),
+        Form::Skein | Form::Gcode => Skein::read(text).map(Document::Skein),
+    }
+}
+
+fn read_mesh(bytes: &[u8], notes: &mut Notes) -> Result<shape::TriangleMesh, Error> {
+    let import = stl::read(bytes).map_err(|error| {
+        let place = match error.place {
+            stl::Place::File => Place::Whole,
+            stl::Place::Byte(byte) => Place::At(format!("byte {byte}")),
+            stl::Place::Line(line) => Place::Line(line),
+            stl::Place::Facet { number, byte } => Place::At(format!("facet {number} (byte {byte})")),
+        };
+        Error::new(error.message).at(place).hint(error.hint)
+    })?;
+    for note in import.report.notes() {
+        notes.say(note);
+    }
+    notes.said_by("stl");
+    Ok(import.mesh)
+}
+
+/// Reads a text between two stages and draws its layers.
+///
+/// # Errors
+/// When it is neither the SVG of carve nor a skein.
+pub fn draw_text(text: &[u8], drawing: Drawing) -> Result<String, Error> {
+    let form = match Form::of(text) {
+        Form::Mesh => Form::Skein,
+        form => form,
+    };
+    draw(&read(form, text, &mut Notes::default())?, drawing)
+}
+
+/// Has all work done on so many threads; to be called before anything else, and once.
+///
+/// # Errors
+/// When work has begun already.
+pub fn set_threads(threads: usize) -> Result<(), Error> {
+    rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build_global()
+        .map_err(|error| Error::new(format!("the threads cannot be set: {error}")))
+}

@@ -1,0 +1,178 @@
+//! The words of the command line.
+
+use clap::{Args, Parser, Subcommand};
+use std::path::PathBuf;
+
+/// A slicer for clay printers: a mesh goes in, G-code that a paste extruder can print comes out.
+#[derive(Parser)]
+#[command(
+    name = "clayforge",
+    version,
+    arg_required_else_help = true,
+    after_help = "\
+Examples:
+  clayforge slice cup.stl                          cup.gcode, with the profile `clay`
+  clayforge slice cup.stl --profile generic-ram --set fill.walls=3
+  clayforge slice cup.stl --dump steps             look at every stage: steps/*.layers.svg
+  clayforge profile new > mine.toml                a profile of your own
+  clayforge explain fill.walls                     what a setting does
+  clayforge check cup.gcode                        layers, spirals and gaps of a finished file
+
+Exit codes: 0 done, 1 refused or failed, 2 wrong usage."
+)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+/// What to do.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Turn a part into G-code
+    Slice(Slice),
+    /// Run one stage: text in, text out
+    Craft(Craft),
+    /// List the stages in order, with what each is for
+    Stages(Stages),
+    /// Show the manual of a stage, or of one setting
+    Explain(Explain),
+    /// List, show, check and begin profiles
+    Profile(Profile),
+    /// Say what a G-code file is made of, and whether a clay printer can print it
+    Check(Check),
+}
+
+/// Where the settings come from.
+#[derive(Args, Clone, Default)]
+pub struct Settings {
+    /// A profile: a file, one of your config folder, or a built-in one [default: clay]
+    #[arg(long, value_name = "NAME|FILE")]
+    pub profile: Option<String>,
+    /// Set one key, on top of the profile; may be given many times
+    #[arg(long, value_name = "STAGE.KEY=VALUE", value_parser = pair)]
+    pub set: Vec<(String, String)>,
+}
+
+/// `--set fill.walls=2` as a pair.
+fn pair(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().to_owned(), value.to_owned())),
+        _ => Err("it must be STAGE.KEY=VALUE, like fill.walls=2".to_owned()),
+    }
+}
+
+/// `clayforge slice`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  clayforge slice cup.stl                                    writes cup.gcode
+  clayforge slice cup.stl -o - --quiet | less                to standard output
+  clayforge slice cup.stl --set carve.layer_height=1 --set 'machine.bed=[300, 300, 400]'
+  clayforge slice cup.stl --set 'machine.e_unit={ ram = 60 }'
+  clayforge slice cup.stl --until fill --dump steps          stop behind fill and look at it
+  clayforge slice cup.stl --report cup.json                  layers, clay, time, warnings for scripts")]
+pub struct Slice {
+    /// The part: an STL file, text or binary
+    pub part: PathBuf,
+    #[command(flatten)]
+    pub settings: Settings,
+    /// Where the G-code goes; `-` is standard output [default: PART with .gcode]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+    /// Write the text and the drawn layers of every stage into this folder
+    #[arg(long, value_name = "DIR")]
+    pub dump: Option<PathBuf>,
+    /// Stop behind this stage and write its text
+    #[arg(long, value_name = "STAGE")]
+    pub until: Option<String>,
+    /// Write layers, lengths, clay, time and warnings as JSON
+    #[arg(long, value_name = "FILE")]
+    pub report: Option<PathBuf>,
+    /// Work on so many threads; 0 is one for each core
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub threads: usize,
+    /// No progress and no summary; errors are still said
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// `clayforge craft`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  clayforge craft carve cup.stl | clayforge craft preface | clayforge craft inset > cup.inset.gcode
+  clayforge craft fill cup.inset.gcode -o cup.fill.gcode --set fill.density=0.5
+
+carve reads an STL and writes an SVG; preface reads that and writes tagged G-code; the other stages read and write
+tagged G-code; export writes what the machine reads. `clayforge slice` does the same in memory, to the byte.")]
+pub struct Craft {
+    /// The stage
+    pub stage: String,
+    /// The text it reads; `-` or nothing is standard input
+    pub input: Option<PathBuf>,
+    #[command(flatten)]
+    pub settings: Settings,
+    /// Where its text goes [default: standard output]
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<PathBuf>,
+}
+
+/// `clayforge stages`.
+#[derive(Args)]
+pub struct Stages {
+    /// As JSON, for scripts
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// `clayforge explain`.
+#[derive(Args)]
+#[command(after_help = "Examples:\n  clayforge explain fill\n  clayforge explain fill.walls\n  clayforge explain machine")]
+pub struct Explain {
+    /// A stage, a section, or a setting
+    #[arg(value_name = "STAGE[.SETTING]")]
+    pub topic: String,
+}
+
+/// `clayforge profile`.
+#[derive(Args)]
+pub struct Profile {
+    /// What to do.
+    #[command(subcommand)]
+    pub action: ProfileAction,
+}
+
+/// What to do with profiles.
+#[derive(Subcommand)]
+pub enum ProfileAction {
+    /// Name the profiles that are found
+    List,
+    /// Print everything that a profile sets, as a profile
+    Show {
+        /// A name or a file
+        name: String,
+    },
+    /// Say whether a file is a sound profile
+    Check {
+        /// A name or a file
+        file: String,
+    },
+    /// Print the JSON schema of profiles, for editors
+    Schema,
+    /// Print a commented profile to begin with
+    New,
+}
+
+/// `clayforge check`.
+#[derive(Args)]
+pub struct Check {
+    /// A G-code file of any program; `-` is standard input
+    pub file: PathBuf,
+    /// The printer it is for: a file, one of your config folder, or a built-in one
+    #[arg(long, value_name = "NAME|FILE")]
+    pub profile: Option<String>,
+    /// As JSON, for scripts
+    #[arg(long)]
+    pub json: bool,
+}

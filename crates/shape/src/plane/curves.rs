@@ -1,0 +1,558 @@
+//! Closed curves that cross, taken apart into simple loops.
+//!
+//! At each crossing the two strands swap their onward parts, which leaves simple loops that only touch (the Seifert
+//! circles of the curves). The winding number is the same all along one side of such a loop, so a look decides: the
+//! loops with winding 1 on their left and 0 on their right are the outline of everything that is covered at least
+//! once. Crossings are found with boxes around runs of the curve, so the cost grows with the number of points and of
+//! crossings.
+//!
+//! Coordinates inside are floats of microns with the rounding errors of floats. Every arc of a loop that is kept is
+//! looked at; when two disagree, curves touch within that error and the exact integer kernel of
+//! [`boolean`](super::boolean) takes over. The result is rounded to whole microns once.
+
+use super::{Point, Ring, boolean};
+
+/// A point or vector in floats of microns.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct V {
+    pub(super) x: f64,
+    pub(super) y: f64,
+}
+
+impl V {
+    pub(super) fn of(point: Point) -> Self {
+        Self { x: f64::from(point.x), y: f64::from(point.y) }
+    }
+
+    pub(super) fn plus(self, other: Self, times: f64) -> Self {
+        Self { x: other.x.mul_add(times, self.x), y: other.y.mul_add(times, self.y) }
+    }
+
+    pub(super) fn to(self, other: Self) -> Self {
+        Self { x: other.x - self.x, y: other.y - self.y }
+    }
+
+    pub(super) fn cross(self, other: Self) -> f64 {
+        self.x * other.y - self.y * other.x
+    }
+
+    pub(super) fn dot(self, other: Self) -> f64 {
+        self.x * other.x + self.y * other.y
+    }
+
+    pub(super) fn left(self) -> Self {
+        Self { x: -self.y, y: self.x }
+    }
+}
+
+/// Closed curves that may cross themselves and each other.
+#[derive(Default)]
+pub(super) struct Curves {
+    points: Vec<V>,
+    rings: Vec<Tree>,
+}
+
+/// How many sides a leaf of the tree holds: few enough to compare all with all, enough to keep the tree small.
+const LEAF: usize = 8;
+
+/// Boxes around runs of a curve's sides: leaves of [`LEAF`] sides first, then pairs of boxes, up to one for all.
+struct Tree {
+    /// Where the ring's points begin and end in [`Curves::points`].
+    start: usize,
+    end: usize,
+    /// Where each level's boxes begin in `boxes`, the leaves' first.
+    levels: Vec<usize>,
+    boxes: Vec<Box2>,
+}
+
+#[derive(Clone, Copy)]
+struct Box2 {
+    low: V,
+    high: V,
+}
+
+impl Box2 {
+    const EMPTY: Self = Self {
+        low: V { x: f64::INFINITY, y: f64::INFINITY },
+        high: V { x: f64::NEG_INFINITY, y: f64::NEG_INFINITY },
+    };
+
+    fn add(&mut self, point: V) {
+        self.low = V { x: self.low.x.min(point.x), y: self.low.y.min(point.y) };
+        self.high = V { x: self.high.x.max(point.x), y: self.high.y.max(point.y) };
+    }
+
+    fn meets(&self, other: &Self) -> bool {
+        self.low.x <= other.high.x
+            && other.low.x <= self.high.x
+            && self.low.y <= other.high.y
+            && other.low.y <= self.high.y
+    }
+}
+
+/// A place where two sides cross, with how far along each it lies (0..1).
+pub(super) struct Crossing {
+    at: V,
+    sides: [usize; 2],
+    along: [f64; 2],
+}
+
+/// A simple loop, taken out of the curves; its arcs run from crossing to crossing.
+#[derive(Default)]
+struct Circle {
+    points: Vec<V>,
+    /// Where each arc begins in `points`.
+    arcs: Vec<usize>,
+}
+
+/// One strand's passage through a crossing.
+struct Visit {
+    side: usize,
+    along: f64,
+    crossing: usize,
+    /// The other strand's passage.
+    partner: usize,
+}
+
+impl Curves {
+    /// Adds a closed curve.
+    pub(super) fn push(&mut self, points: impl IntoIterator<Item = V>) {
+        let start = self.points.len();
+        self.points.extend(points);
+        let end = self.points.len();
+        if end - start < 3 {
+            self.points.truncate(start);
+            return;
+        }
+        self.rings.push(Tree::new(&self.points, start, end));
+    }
+
+    /// The outline of what has a positive winding number.
+    pub(super) fn covered(&self) -> Vec<Ring> {
+        let crossings = self.crossings();
+        let circles = self.circles(&crossings);
+        let mut rings = Vec::with_capacity(circles.len());
+        for circle in circles {
+            match self.is_outline(&circle) {
+                Some(true) => rings.extend(rounded(&circle.points)),
+                Some(false) => {}
+                None => {
+                    return boolean::positive(&self.raw());
+                }
+            }
+        }
+        rings
+    }
+
+    /// The curves as they are, in whole microns.
+    pub(super) fn raw(&self) -> Vec<Ring> {
+        let round = |place: &V| Point::new(place.x.round() as i32, place.y.round() as i32);
+        self.rings
+            .iter()
+            .map(|tree| Ring(self.points[tree.start..tree.end].iter().map(round).collect()))
+            .collect()
+    }
+
+    /// The parts of the first rings that lie outside the region of the others, each as a vector.
+    pub(super) fn outside(&self, first: usize) -> Vec<V> {
+        let mut found = Vec::new();
+        let (loops, region) = self.rings.split_at(first);
+        for one in loops {
+            for other in region {
+                one.with_other(
+                    self,
+                    other,
+                    (one.levels.len() - 1, 0),
+                    (other.levels.len() - 1, 0),
+                    &mut found,
+                );
+            }
+        }
+        let mut cuts: Vec<(usize, f64)> =
+            found.iter().map(|crossing| (crossing.sides[0], crossing.along[0])).collect();
+        cuts.sort_unstable_by(|one, other| one.0.cmp(&other.0).then(one.1.total_cmp(&other.1)));
+        let mut parts = Vec::new();
+        let mut cuts = cuts.into_iter().peekable();
+        for one in loops {
+            for side in one.start..one.end {
+                let (from, vector) = (self.points[side], self.points[side].to(self.after(one, side)));
+                let mut before = 0.0;
+                let mut part = |until: f64| {
+                    let middle = from.plus(vector, f64::midpoint(before, until));
+                    let winding: i32 =
+                        region.iter().map(|tree| tree.winding(self, tree.levels.len() - 1, 0, middle)).sum();
+                    if winding <= 0 && until > before {
+                        parts.push(V { x: vector.x * (until - before), y: vector.y * (until - before) });
+                    }
+                    before = until;
+                };
+                while let Some((_, along)) = cuts.next_if(|cut| cut.0 == side) {
+                    part(along);
+                }
+                part(1.0);
+            }
+        }
+        parts
+    }
+
+    /// Every crossing, in a fixed order.
+    pub(super) fn crossings(&self) -> Vec<Crossing> {
+        let mut found = Vec::new();
+        for (index, tree) in self.rings.iter().enumerate() {
+            tree.with_itself(self, tree.levels.len() - 1, 0, &mut found);
+            for other in &self.rings[index + 1..] {
+                tree.with_other(
+                    self,
+                    other,
+                    (tree.levels.len() - 1, 0),
+                    (other.levels.len() - 1, 0),
+                    &mut found,
+                );
+            }
+        }
+        found
+    }
+
+    /// The end of a side that starts at a point of a ring.
+    fn after(&self, tree: &Tree, side: usize) -> V {
+        self.points[tree.next(side)]
+    }
+
+    fn compare(&self, tree: &Tree, side: usize, other: &Tree, second: usize, found: &mut Vec<Crossing>) {
+        let (a, b) = (self.points[side], self.after(tree, side));
+        let (c, d) = (self.points[second], self.after(other, second));
+        // Neighbours share an end and cannot cross.
+        if std::ptr::eq(tree, other) && (tree.next(side) == second || tree.next(second) == side) {
+            return;
+        }
+        if a.x.max(b.x) < c.x.min(d.x)
+            || c.x.max(d.x) < a.x.min(b.x)
+            || a.y.max(b.y) < c.y.min(d.y)
+            || c.y.max(d.y) < a.y.min(b.y)
+        {
+            return;
+        }
+        let (end, second_end) = (tree.next(side), other.next(second));
+        if self.left(side, end, second) == self.left(side, end, second_end)
+            || self.left(second, second_end, side) == self.left(second, second_end, end)
+        {
+            return;
+        }
+        let (ab, cd) = (a.to(b), c.to(d));
+        let share = |one: f64, other: f64| {
+            let sum = one.abs() + other.abs();
+            if sum > 0.0 { one.abs() / sum } else { 0.5 }
+        };
+        let along = share(cd.cross(c.to(a)), cd.cross(c.to(b)));
+        let along_second = share(ab.cross(a.to(c)), ab.cross(a.to(d)));
+        found.push(Crossing { at: a.plus(ab, along), sides: [side, second], along: [along, along_second] });
+    }
+
+    /// Whether point `k` lies left of the line from `i` to `j`.
+    ///
+    /// Points in line are told apart as if each had been moved a little, the earlier ones infinitely more than the
+    /// later (simulation of simplicity: Edelsbrunner and Mücke 1990), so that the answers for all triples fit
+    /// together and every touch is either a crossing or none. For the same reason the three are sorted first.
+    fn left(&self, i: usize, j: usize, k: usize) -> bool {
+        let (mut first, mut second, mut third, mut even) = (i, j, k, true);
+        let mut order = |one: &mut usize, other: &mut usize| {
+            if *one > *other {
+                std::mem::swap(one, other);
+                even = !even;
+            }
+        };
+        order(&mut first, &mut second);
+        order(&mut second, &mut third);
+        order(&mut first, &mut second);
+        let (a, b, c) = (self.points[first], self.points[second], self.points[third]);
+        let terms = [a.to(b).cross(a.to(c)), b.y - c.y, c.x - b.x, c.y - a.y];
+        let positive = terms.into_iter().find(|term| *term != 0.0).is_some_and(|term| term > 0.0);
+        positive == even
+    }
+
+    /// Takes the curves apart at their crossings.
+    fn circles(&self, crossings: &[Crossing]) -> Vec<Circle> {
+        let mut visits: Vec<Visit> = Vec::with_capacity(crossings.len() * 2);
+        for (index, crossing) in crossings.iter().enumerate() {
+            for strand in 0..2 {
+                visits.push(Visit {
+                    side: crossing.sides[strand],
+                    along: crossing.along[strand],
+                    crossing: index,
+                    partner: 0,
+                });
+            }
+        }
+        visits.sort_unstable_by(|one, other| {
+            one.side
+                .cmp(&other.side)
+                .then(one.along.total_cmp(&other.along))
+                .then(one.crossing.cmp(&other.crossing))
+        });
+        let mut first: Vec<Option<usize>> = vec![None; crossings.len()];
+        for index in 0..visits.len() {
+            match first[visits[index].crossing] {
+                None => first[visits[index].crossing] = Some(index),
+                Some(partner) => {
+                    visits[index].partner = partner;
+                    visits[partner].partner = index;
+                }
+            }
+        }
+        let mut circles: Vec<Circle> = Vec::new();
+        let mut used = vec![false; visits.len()];
+        let mut from = 0;
+        for tree in &self.rings {
+            let to = from + visits[from..].iter().take_while(|visit| visit.side < tree.end).count();
+            if from == to {
+                circles.push(Circle { points: self.points[tree.start..tree.end].to_vec(), arcs: vec![0] });
+            }
+            from = to;
+        }
+        for start in 0..visits.len() {
+            let mut circle = Circle::default();
+            let mut here = start;
+            while !used[here] {
+                used[here] = true;
+                here = self.walk(&visits, here, crossings, &mut circle);
+            }
+            if circle.points.len() > 2 {
+                circles.push(circle);
+            }
+        }
+        circles
+    }
+
+    /// Follows the curve from one passage to the next and says where the other strand goes on.
+    fn walk(&self, visits: &[Visit], here: usize, crossings: &[Crossing], circle: &mut Circle) -> usize {
+        let visit = &visits[here];
+        circle.arcs.push(circle.points.len());
+        circle.points.push(crossings[visit.crossing].at);
+        let tree = self.tree_of(visit.side);
+        let next = match visits.get(here + 1) {
+            Some(next) if next.side < tree.end => here + 1,
+            // Round the ring to its first passage.
+            _ => visits.partition_point(|visit| visit.side < tree.start),
+        };
+        let mut side = visit.side;
+        // The last passage of a ring leads round to the first even when both lie on one side.
+        let mut around = next <= here;
+        while side != visits[next].side || around {
+            around = around && side + 1 != tree.end;
+            side = tree.next(side);
+            circle.points.push(self.points[side]);
+        }
+        visits[next].partner
+    }
+
+    fn tree_of(&self, side: usize) -> &Tree {
+        &self.rings[self.rings.partition_point(|tree| tree.end <= side)]
+    }
+
+    /// Whether the winding number is 1 on the left of a loop and 0 on its right; `None` when its arcs disagree.
+    fn is_outline(&self, circle: &Circle) -> Option<bool> {
+        // Between two crossings the winding number cannot change, so one look at each arc is enough.
+        let mut verdict = None;
+        for (index, &start) in circle.arcs.iter().enumerate() {
+            let end = circle.arcs.get(index + 1).copied().unwrap_or(circle.points.len());
+            let Some((left, right)) = self.look_beside(circle, start..end) else { continue };
+            if left != right + 1 || verdict.is_some_and(|before| before != (left == 1)) {
+                return None;
+            }
+            verdict = Some(left == 1);
+            if left != 1 {
+                break;
+            }
+        }
+        verdict.or(Some(false))
+    }
+
+    /// The winding numbers left and right of the longest of some sides; `None` when all are shorter than a micron,
+    /// which vanishes in rounding anyway.
+    fn look_beside(&self, circle: &Circle, sides: std::ops::Range<usize>) -> Option<(i32, i32)> {
+        let points = &circle.points;
+        let side = |index: usize| {
+            let from = points[index];
+            (from, from.to(points[if index + 1 == points.len() { 0 } else { index + 1 }]))
+        };
+        let (mut best, mut length2) = (None, 1.0);
+        for index in sides {
+            let vector = side(index).1;
+            if vector.dot(vector) > length2 {
+                length2 = vector.dot(vector);
+                best = Some(index);
+            }
+        }
+        let (from, vector) = side(best?);
+        let middle = from.plus(vector, 0.5);
+        // A hundredth of a micron: far above the error of a float, far below what is printed.
+        let reach = 0.01 / length2.sqrt();
+        Some((
+            self.winding(middle.plus(vector.left(), reach)),
+            self.winding(middle.plus(vector.left(), -reach)),
+        ))
+    }
+
+    /// How often the curves go round a point, counter-clockwise.
+    fn winding(&self, point: V) -> i32 {
+        self.rings.iter().map(|tree| tree.winding(self, tree.levels.len() - 1, 0, point)).sum()
+    }
+}
+
+impl Tree {
+    fn new(points: &[V], start: usize, end: usize) -> Self {
+        let count = end - start;
+        let leaves = count.div_ceil(LEAF);
+        let mut boxes = Vec::with_capacity(leaves * 2 + 8);
+        for leaf in 0..leaves {
+            let (from, to) = (start + leaf * LEAF, (start + (leaf + 1) * LEAF).min(end));
+            let mut bounds = Box2::EMPTY;
+            points[from..to].iter().for_each(|point| bounds.add(*point));
+            bounds.add(points[if to == end { start } else { to }]);
+            boxes.push(bounds);
+        }
+        let mut levels = vec![0];
+        let (mut from, mut length) = (0, leaves);
+        while length > 1 {
+            levels.push(boxes.len());
+            for pair in 0..length.div_ceil(2) {
+                let mut bounds = boxes[from + 2 * pair];
+                if 2 * pair + 1 < length {
+                    let other: Box2 = boxes[from + 2 * pair + 1];
+                    bounds.add(other.low);
+                    bounds.add(other.high);
+                }
+                boxes.push(bounds);
+            }
+            from += length;
+            length = length.div_ceil(2);
+        }
+        Self { start, end, levels, boxes }
+    }
+
+    /// The point after a point of the ring.
+    fn next(&self, index: usize) -> usize {
+        if index + 1 == self.end { self.start } else { index + 1 }
+    }
+
+    fn bounds(&self, level: usize, index: usize) -> &Box2 {
+        &self.boxes[self.levels[level] + index]
+    }
+
+    /// The boxes inside a box.
+    fn children(&self, level: usize, index: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
+        let below = self.levels[level] - self.levels[level - 1];
+        [2 * index, 2 * index + 1]
+            .into_iter()
+            .filter(move |child| *child < below)
+            .map(move |child| (level - 1, child))
+    }
+
+    /// The sides inside a box.
+    fn sides(&self, level: usize, index: usize) -> std::ops::Range<usize> {
+        let width = LEAF << level;
+        self.start + index * width..(self.start + (index + 1) * width).min(self.end)
+    }
+
+    fn with_itself(&self, curves: &Curves, level: usize, index: usize, found: &mut Vec<Crossing>) {
+        if level == 0 {
+            let sides = self.sides(0, index);
+            for side in sides.clone() {
+                for second in side + 1..sides.end {
+                    curves.compare(self, side, self, second, found);
+                }
+            }
+            return;
+        }
+        let children: Vec<(usize, usize)> = self.children(level, index).collect();
+        for child in &children {
+            self.with_itself(curves, child.0, child.1, found);
+        }
+        if let [one, other] = children[..] {
+            self.with_other(curves, self, one, other, found);
+        }
+    }
+
+    fn with_other(
+        &self,
+        curves: &Curves,
+        other: &Self,
+        one: (usize, usize),
+        two: (usize, usize),
+        found: &mut Vec<Crossing>,
+    ) {
+        if !self.bounds(one.0, one.1).meets(other.bounds(two.0, two.1)) {
+            return;
+        }
+        if one.0 == 0 && two.0 == 0 {
+            let seconds = other.sides(0, two.1);
+            let reach = other.bounds(0, two.1);
+            for side in self.sides(0, one.1) {
+                let (a, b) = (curves.points[side], curves.after(self, side));
+                if a.x.max(b.x) < reach.low.x
+                    || a.x.min(b.x) > reach.high.x
+                    || a.y.max(b.y) < reach.low.y
+                    || a.y.min(b.y) > reach.high.y
+                {
+                    continue;
+                }
+                for second in seconds.clone() {
+                    curves.compare(self, side, other, second, found);
+                }
+            }
+        } else if one.0 >= two.0 {
+            for child in self.children(one.0, one.1) {
+                self.with_other(curves, other, child, two, found);
+            }
+        } else {
+            for child in other.children(two.0, two.1) {
+                self.with_other(curves, other, one, child, found);
+            }
+        }
+    }
+
+    /// What the sides in a box add to the winding number: those that cross the ray to the right, upwards less
+    /// downwards. A run that lies wholly right of the point counts by its two ends.
+    fn winding(&self, curves: &Curves, level: usize, index: usize, point: V) -> i32 {
+        let bounds = self.bounds(level, index);
+        if bounds.high.x < point.x || bounds.high.y < point.y || bounds.low.y > point.y {
+            return 0;
+        }
+        let sides = self.sides(level, index);
+        let above = |place: V| i32::from(place.y > point.y);
+        if bounds.low.x > point.x {
+            return above(curves.after(self, sides.end - 1)) - above(curves.points[sides.start]);
+        }
+        if level == 0 {
+            return sides
+                .map(|side| {
+                    let (a, b) = (curves.points[side], curves.after(self, side));
+                    let rise = above(b) - above(a);
+                    let right = rise != 0 && {
+                        let turn = a.to(b).cross(a.to(point));
+                        if rise > 0 { turn > 0.0 } else { turn < 0.0 }
+                    };
+                    if right { rise } else { 0 }
+                })
+                .sum();
+        }
+        self.children(level, index).map(|(level, index)| self.winding(curves, level, index, point)).sum()
+    }
+}
+
+/// A loop in whole microns; `None` when nothing is left of it.
+fn rounded(circle: &[V]) -> Option<Ring> {
+    let mut points: Vec<Point> = Vec::with_capacity(circle.len());
+    for place in circle {
+        let point = Point::new(place.x.round() as i32, place.y.round() as i32);
+        if points.last() != Some(&point) {
+            points.push(point);
+        }
+    }
+    while points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    let ring = Ring(points);
+    // A loop less than a micron wide is rounding, not clay.
+    (ring.0.len() > 2 && (ring.area2().unsigned_abs() as f64) > 2.0 * ring.length()).then_some(ring)
+}

@@ -1,0 +1,160 @@
+use super::*;
+use proptest::prelude::*;
+
+fn ring(points: &[(i32, i32)]) -> Ring {
+    Ring(points.iter().map(|(x, y)| Point::new(*x, *y)).collect())
+}
+
+fn square(low: i32, high: i32) -> Ring {
+    ring(&[(low, low), (high, low), (high, high), (low, high)])
+}
+
+fn area(region: &[Ring]) -> f64 {
+    region.iter().map(Ring::area).sum()
+}
+
+/// A star with wavy, uneven rays: convex and concave, wide and narrow.
+fn star(seed: u64, points: usize, size: f64) -> Ring {
+    let mut state = seed;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as f64 / f64::from(1u32 << 31)
+    };
+    let points = (0..points)
+        .map(|index| {
+            let angle = index as f64 / points as f64 * std::f64::consts::TAU;
+            let radius = size * (0.15 + random());
+            Point::new((radius * libm::cos(angle)) as i32, (radius * libm::sin(angle)) as i32)
+        })
+        .collect();
+    Ring(points)
+}
+
+#[test]
+fn a_square_shrinks_and_grows_by_the_distance() {
+    assert_eq!(offset(&[square(0, 20_000)], -360.0), vec![square(360, 19_640)]);
+    assert_eq!(offset(&[square(0, 20_000)], 500.0), vec![square(-500, 20_500)]);
+}
+
+#[test]
+fn a_hole_grows_while_its_outside_shrinks() {
+    let region = [square(0, 20_000), square(5_000, 15_000).reversed()];
+    let shrunk = offset(&region, -1_000.0);
+    assert_eq!(area(&shrunk), 18.0 * 18.0 - 12.0 * 12.0);
+    assert_eq!(offset(&region, -3_000.0), vec![]);
+}
+
+#[test]
+fn what_is_too_narrow_vanishes() {
+    assert_eq!(offset(&[square(0, 1_000)], -501.0), vec![]);
+    let triangle = ring(&[(0, 0), (10_000, 0), (5_000, 8_000)]);
+    assert_eq!(offset(&[triangle], -4_000.0), vec![]);
+}
+
+#[test]
+fn a_dumb_bell_parts_at_its_neck() {
+    let bell = ring(&[
+        (0, 0),
+        (10_000, 0),
+        (10_000, 4_550),
+        (16_000, 4_550),
+        (16_000, 0),
+        (26_000, 0),
+        (26_000, 10_000),
+        (16_000, 10_000),
+        (16_000, 5_450),
+        (10_000, 5_450),
+        (10_000, 10_000),
+        (0, 10_000),
+    ]);
+    let parts = offset(&[bell], -500.0);
+    assert_eq!(parts.len(), 2);
+    assert!((area(&parts) - 162.0).abs() < 0.01, "{}", area(&parts));
+}
+
+#[test]
+fn a_neck_as_wide_as_the_distance_allows_does_no_harm() {
+    let bell = ring(&[
+        (0, 0),
+        (10_000, 0),
+        (10_000, 4_500),
+        (16_000, 4_500),
+        (16_000, 0),
+        (26_000, 0),
+        (26_000, 10_000),
+        (16_000, 10_000),
+        (16_000, 5_500),
+        (10_000, 5_500),
+        (10_000, 10_000),
+        (0, 10_000),
+    ]);
+    assert!((area(&offset(&[bell], -500.0)) - 162.0).abs() < 0.01);
+}
+
+#[test]
+fn overlapping_loops_are_united() {
+    let region = united(&[square(0, 10_000), square(5_000, 15_000)]);
+    assert_eq!(region.len(), 1);
+    assert_eq!(area(&region), 175.0);
+    assert_eq!(area(&united(&[square(0, 10_000), square(2_000, 3_000)])), 100.0);
+    assert_eq!(area(&united(&[square(0, 10_000), square(2_000, 3_000).reversed()])), 99.0);
+}
+
+#[test]
+fn shared_sides_fall_back_to_the_exact_kernel() {
+    let one = square(0, 10_000);
+    let other = ring(&[(10_000, 0), (20_000, 0), (20_000, 10_000), (10_000, 10_000)]);
+    assert_eq!(area(&united(&[one.clone(), other])), 200.0);
+    assert_eq!(area(&united(&[one.clone(), one])), 100.0);
+}
+
+#[test]
+fn a_sharp_reflex_corner_keeps_its_distance() {
+    // A slot as narrow as a hair, pointing inwards.
+    let slot = ring(&[
+        (0, 0),
+        (20_000, 0),
+        (20_000, 20_000),
+        (10_100, 20_000),
+        (10_000, 10_000),
+        (9_900, 20_000),
+        (0, 20_000),
+    ]);
+    let tip = Point::new(10_000, 10_000);
+    for part in offset(&[slot], -1_000.0) {
+        for (from, to) in part.segments() {
+            let (along, reach) = (from.delta(to), from.delta(tip));
+            let share = (along.0 * reach.0 + along.1 * reach.1) as f64
+                / (along.0 * along.0 + along.1 * along.1) as f64;
+            let share = share.clamp(0.0, 1.0);
+            let gap =
+                (reach.0 as f64 - share * along.0 as f64).hypot(reach.1 as f64 - share * along.1 as f64);
+            assert!(gap > 998.0, "{gap}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(400))]
+
+    /// The exact kernel, given the same raw curve, covers the same area.
+    #[test]
+    fn it_agrees_with_the_exact_kernel(seed in any::<u64>(), points in 5usize..80, share in -0.4f64..0.3) {
+        let region = [star(seed, points, 30_000.0)];
+        let distance = share * 30_000.0;
+        let ours = offset(&region, distance);
+        let raw = offset::raw_for_test(&region, distance);
+        let exact = boolean::positive(&raw);
+        let slack = 1e-3 * ours.iter().chain(&exact).map(Ring::length).sum::<f64>() / 1000.0 + 1e-3;
+        prop_assert!((area(&ours) - area(&exact)).abs() <= slack, "{} {} {}", area(&ours), area(&exact), slack);
+    }
+
+    /// Shrinking twice is shrinking once by the sum, up to the corners that are cut.
+    #[test]
+    fn shrinking_never_leaves_the_region(seed in any::<u64>(), points in 5usize..60, share in 0.01f64..0.3) {
+        let region = [star(seed, points, 30_000.0)];
+        let shrunk = offset(&region, -share * 30_000.0);
+        let outside = boolean::difference(&shrunk, &region);
+        prop_assert!(area(&outside) < 1e-2, "{}", area(&outside));
+    }
+}
