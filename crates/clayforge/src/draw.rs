@@ -106,7 +106,10 @@ fn slice_pictures(slices: &Slices) -> impl Fn(Drawing) -> (usize, Vec<Picture>) 
     }
 }
 
-fn skein_pictures(skein: &Skein, drawing: Drawing) -> Result<impl Fn(Drawing) -> (usize, Vec<Picture>), Error> {
+fn skein_pictures(
+    skein: &Skein,
+    drawing: Drawing,
+) -> Result<impl Fn(Drawing) -> (usize, Vec<Picture>), Error> {
     let facts = skein.facts()?;
     let wanted = chosen(skein.layers.len(), drawing);
     let mut nozzle = Nozzle::default();
@@ -121,7 +124,9 @@ fn skein_pictures(skein: &Skein, drawing: Drawing) -> Result<impl Fn(Drawing) ->
     }
     let count = skein.layers.len();
     Ok(move |_| {
-        let drawn = pictures.iter().map(|(index, layer, nozzle, bead)| skein_picture(*index, layer, nozzle.clone(), *bead));
+        let drawn = pictures
+            .iter()
+            .map(|(index, layer, nozzle, bead)| skein_picture(*index, layer, nozzle.clone(), *bead));
         (count, drawn.collect())
     })
 }
@@ -141,7 +146,9 @@ fn skein_picture(index: usize, layer: &Layer, mut nozzle: Nozzle, bead: Bead) ->
                 }
                 run.push(Point::new(step.to.x, step.to.y));
             }
-            Line::On | Line::Off | Line::Flow(_) => end_run(&mut run, &nozzle, bead, &mut picture, &mut travels),
+            Line::On | Line::Off | Line::Flow(_) => {
+                end_run(&mut run, &nozzle, bead, &mut picture, &mut travels)
+            }
             _ => {}
         }
         nozzle.follow(line);
@@ -189,7 +196,8 @@ text{font-family:sans-serif;fill:#333}";
 fn sheet(pictures: impl Fn(Drawing) -> (usize, Vec<Picture>), drawing: Drawing) -> Result<String, Error> {
     let (count, pictures) = pictures(drawing);
     if let (Some(layer), true) = (drawing.layer, pictures.is_empty()) {
-        return Err(Error::new(format!("there is no layer {layer}")).hint(format!("there are {count}, counted from 0")));
+        return Err(Error::new(format!("there is no layer {layer}"))
+            .hint(format!("there are {count}, counted from 0")));
     }
     // Every cell shows the same window, so that layers can be compared.
     let mut window: Option<(Point, Point)> = None;
@@ -204,7 +212,8 @@ fn sheet(pictures: impl Fn(Drawing) -> (usize, Vec<Picture>), drawing: Drawing) 
     let letter = part_width.max(part_depth) * 0.06;
     let gap = letter;
     let (cell_width, cell_depth) = (part_width + gap, part_depth + gap + letter * 1.4);
-    let columns = ((pictures.len() as f64 * cell_depth / cell_width).sqrt().ceil() as usize).clamp(1, pictures.len().max(1));
+    let columns = ((pictures.len() as f64 * cell_depth / cell_width).sqrt().ceil() as usize)
+        .clamp(1, pictures.len().max(1));
     let rows = pictures.len().div_ceil(columns).max(1);
     let (width, depth) = (cell_width * columns as f64 + gap, cell_depth * rows as f64 + gap + letter * 1.6);
     let pixels = 1600.0;

@@ -63,7 +63,12 @@ fn setting(section: &str, field: &Field) -> String {
             bounds => format!("{form}, {bounds}"),
         },
     };
-    let _ = writeln!(text, "    It is {}{}", kind.trim_end_matches(", "), if matches!(field.kind, Kind::Choice(_)) { ":" } else { "." });
+    let _ = writeln!(
+        text,
+        "    It is {}{}",
+        kind.trim_end_matches(", "),
+        if matches!(field.kind, Kind::Choice(_)) { ":" } else { "." }
+    );
     if let Kind::Choice(words) = field.kind {
         for (word, about) in words {
             let _ = writeln!(text, "      {word:?}: {about}");
@@ -85,7 +90,10 @@ mod tests {
 
     #[test]
     fn whoever_mistypes_is_helped() {
-        assert_eq!(explain("fill.wals").expect_err("unknown").hint.as_deref(), Some("did you mean `fill.walls`?"));
+        assert_eq!(
+            explain("fill.wals").expect_err("unknown").hint.as_deref(),
+            Some("did you mean `fill.walls`?")
+        );
         for topic in ["fill", "machine", "clay", "fill.active", "machine.e_unit"] {
             explain(topic).unwrap_or_else(|error| panic!("{error}"));
         }

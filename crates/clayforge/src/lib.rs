@@ -34,7 +34,9 @@ pub use draw::{Drawing, draw};
 pub use explain::explain;
 pub use figures::Figures;
 pub use pipeline::{Event, Found, Sliced, Watch, craft, draw_text, set_threads, slice};
-pub use profile::{BUILT_IN, Clay, Lookup, Profile, Source, Station, built_in, is_built_in, only_built_in, schema, starter};
+pub use profile::{
+    BUILT_IN, Clay, Lookup, Profile, Source, Station, built_in, is_built_in, only_built_in, schema, starter,
+};
 pub use skein::{Error, Note, Notes, Place};
 pub use stages::{Chain, Entry, STAGES, check_sequence, stage};
 pub use work::{Bench, Keys, Sink, Work};

@@ -70,7 +70,9 @@ pub fn slice(
     let mut sliced = Sliced::default();
     let chain = profile.chain()?;
     if let Some(last) = until.filter(|last| !chain.iter().any(|station| station.entry.name == *last)) {
-        return Err(Error::new(format!("the chain has no stage `{last}`")).hint("clayforge stages").said_by("--until"));
+        return Err(Error::new(format!("the chain has no stage `{last}`"))
+            .hint("clayforge stages")
+            .said_by("--until"));
     }
     profile.check(&mut sliced.notes)?;
     watch(Event::Started { name: "stl" })?;
@@ -110,9 +112,17 @@ pub fn slice(
 ///
 /// # Errors
 /// When there is no such stage, or the text, the profile or the stage refuses.
-pub fn craft(stage: &str, text: &[u8], profile: &Profile, notes: &mut Notes, sink: Sink<'_>) -> Result<(), Error> {
+pub fn craft(
+    stage: &str,
+    text: &[u8],
+    profile: &Profile,
+    notes: &mut Notes,
+    sink: Sink<'_>,
+) -> Result<(), Error> {
     let station = profile.station(stage).ok_or_else(|| {
-        Error::new(format!("there is no stage `{stage}`")).hint("all stages: clayforge stages").said_by("craft")
+        Error::new(format!("there is no stage `{stage}`"))
+            .hint("all stages: clayforge stages")
+            .said_by("craft")
     })?;
     profile.check(notes)?;
     let name = station.entry.name;
@@ -142,7 +152,9 @@ fn step(station: &Station, document: Document, bench: &mut Bench<'_>) -> Result<
     let done = station.work.work(document, bench).map_err(|error| error.said_by(name));
     bench.notes.said_by(name);
     let mut document = done?;
-    document.sign(Signature::new(name, &station.work.keys().values())).map_err(|error| error.said_by(name))?;
+    document
+        .sign(Signature::new(name, &station.work.keys().values()))
+        .map_err(|error| error.said_by(name))?;
     document.verify().map_err(|error| {
         Error::new(format!("{name} made a skein that breaks a law ({error}); this is our bug, not yours"))
             .hint("please report it with the part, the profile and the files of --dump")
@@ -179,7 +191,8 @@ fn finish(
         let mut bench = Bench { machine: bench.machine, notes: &mut *bench.notes, sink: &mut both };
         let written = step(station, document, &mut bench);
         tee.close();
-        let report = reader.join().map_err(|_| Error::new("the reader of the finished file broke; this is our bug"));
+        let report =
+            reader.join().map_err(|_| Error::new("the reader of the finished file broke; this is our bug"));
         written.and(report)
     })?;
     let found = Found { layers: report.letter.layers.len(), spirals: report.letter.spirals.len() };
@@ -236,7 +249,11 @@ fn process(pieces: Receiver<Vec<u8>>) -> Report {
 
 fn figures(skein: &Skein, profile: &Profile) -> Result<Figures, Error> {
     let flow = match profile.get("dimension.flow") {
-        Some((_, Value::Number(flow))) if profile.station("dimension").is_some_and(|station| station.active) => flow,
+        Some((_, Value::Number(flow)))
+            if profile.station("dimension").is_some_and(|station| station.active) =>
+        {
+            flow
+        }
         _ => 1.0,
     };
     Figures::of(skein, flow, profile.clay.density.f64())

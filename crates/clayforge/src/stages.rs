@@ -64,17 +64,62 @@ pub fn stage(name: &str) -> Option<&'static Entry> {
 
 /// The literal order of the seed; what is not in the table yet is passed over.
 const SEED: &[&str] = &[
-    "carve", "preface", "widen", "inset", "fill", "multiply", "speed", "raft", "chamber", "tower", "jitter", "comb",
-    "clip", "cool", "stretch", "hop", "wipe", "oozebane", "splodge", "home", "lash", "fillet", "dimension", "unpause",
+    "carve",
+    "preface",
+    "widen",
+    "inset",
+    "fill",
+    "multiply",
+    "speed",
+    "raft",
+    "chamber",
+    "tower",
+    "jitter",
+    "comb",
+    "clip",
+    "cool",
+    "stretch",
+    "hop",
+    "wipe",
+    "oozebane",
+    "splodge",
+    "home",
+    "lash",
+    "fillet",
+    "dimension",
+    "unpause",
     "export",
 ];
 
 /// Of two stages in the same row, the one further left must come first (stages.md §8.3).
 const ORDERS: &[&[&str]] = &[
     &[
-        "carve", "scale", "bottom", "preface", "widen", "inset", "fill", "multiply", "speed", "raft", "tower", "jitter",
-        "clip", "comb", "cool", "hop", "wipe", "oozebane", "home", "lash", "fillet", "limit", "unpause", "dimension",
-        "alteration", "export",
+        "carve",
+        "scale",
+        "bottom",
+        "preface",
+        "widen",
+        "inset",
+        "fill",
+        "multiply",
+        "speed",
+        "raft",
+        "tower",
+        "jitter",
+        "clip",
+        "comb",
+        "cool",
+        "hop",
+        "wipe",
+        "oozebane",
+        "home",
+        "lash",
+        "fillet",
+        "limit",
+        "unpause",
+        "dimension",
+        "alteration",
+        "export",
     ],
     &["preface", "temperature", "raft", "skirt", "export"],
     &["multiply", "speed", "skirt"],
@@ -145,7 +190,8 @@ pub fn check_sequence(names: &[&'static str]) -> Result<(), Error> {
     }
     for needed in ["carve", "preface", "export"] {
         if place(needed).is_none() {
-            return Err(Error::new(format!("sequence has no `{needed}`")).hint("every chain needs carve, preface and export"));
+            return Err(Error::new(format!("sequence has no `{needed}`"))
+                .hint("every chain needs carve, preface and export"));
         }
     }
     for pair in names.windows(2) {
@@ -174,7 +220,8 @@ mod tests {
 
     #[test]
     fn a_sequence_that_breaks_a_dependency_names_the_pair() {
-        let error = check_sequence(&["carve", "preface", "fill", "inset", "export"]).expect_err("fill before inset");
+        let error =
+            check_sequence(&["carve", "preface", "fill", "inset", "export"]).expect_err("fill before inset");
         assert_eq!(error.message, "sequence has `fill` before `inset`: inset must come first");
         assert!(check_sequence(&["carve", "preface", "preface", "export"]).is_err());
         assert!(check_sequence(&["carve", "inset", "export"]).is_err());

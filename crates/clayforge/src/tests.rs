@@ -83,7 +83,9 @@ fn an_unknown_stage_and_a_wrong_text_are_refused() {
     let profile = Profile::default();
     let mut sink = |_: &[u8]| Ok(());
     let mut notes = Notes::default();
-    for (stage, text) in [("iron", TINY), ("fill", "no skein"), ("preface", "no drawing"), ("carve", "solid x")] {
+    for (stage, text) in
+        [("iron", TINY), ("fill", "no skein"), ("preface", "no drawing"), ("carve", "solid x")]
+    {
         assert!(craft(stage, text.as_bytes(), &profile, &mut notes, &mut sink).is_err(), "{stage}");
     }
 }

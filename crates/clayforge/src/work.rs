@@ -136,9 +136,7 @@ impl Work for Special<export::Export> {
     }
     fn work(&self, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
         match document {
-            Document::Skein(skein) => {
-                self.0.export(skein, bench.notes, bench.sink).map(|()| Document::Gcode)
-            }
+            Document::Skein(skein) => self.0.export(skein, bench.notes, bench.sink).map(|()| Document::Gcode),
             other => Err(wrong_form(Form::Skein, &other)),
         }
     }

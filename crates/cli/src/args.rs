@@ -128,7 +128,9 @@ pub struct Stages {
 
 /// `clayforge explain`.
 #[derive(Args)]
-#[command(after_help = "Examples:\n  clayforge explain fill\n  clayforge explain fill.walls\n  clayforge explain machine")]
+#[command(
+    after_help = "Examples:\n  clayforge explain fill\n  clayforge explain fill.walls\n  clayforge explain machine"
+)]
 pub struct Explain {
     /// A stage, a section, or a setting
     #[arg(value_name = "STAGE[.SETTING]")]

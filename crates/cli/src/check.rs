@@ -18,7 +18,10 @@ pub fn run(check: &Check) -> Done {
     if let Some(machine) = &machine {
         let room = machine.bed.z.mm();
         if report.machine.max_height > room {
-            faults.push(format!("the print is {} mm high and the printer {room} mm", report.machine.max_height));
+            faults.push(format!(
+                "the print is {} mm high and the printer {room} mm",
+                report.machine.max_height
+            ));
         }
     }
     if report.machine.layers.is_empty() && report.machine.spirals.is_empty() {

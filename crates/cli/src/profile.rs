@@ -97,9 +97,15 @@ fn list() -> String {
     let mut found: Vec<(String, String, String)> = Vec::new();
     if let Some(folder) = config_folder() {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
-        for path in entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml")) {
+        for path in
+            entries.map(|entry| entry.path()).filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        {
             if let (Some(name), Ok(text)) = (path.file_stem(), fs::read_to_string(&path)) {
-                found.push((name.to_string_lossy().into_owned(), path.display().to_string(), first_comment(&text)));
+                found.push((
+                    name.to_string_lossy().into_owned(),
+                    path.display().to_string(),
+                    first_comment(&text),
+                ));
             }
         }
     }
@@ -113,8 +119,12 @@ fn list() -> String {
 
 /// The first sentence of the comment that a profile begins with.
 fn first_comment(text: &str) -> String {
-    let comment: Vec<&str> =
-        text.lines().map_while(|line| line.strip_prefix('#')).map(str::trim).filter(|line| !line.is_empty()).collect();
+    let comment: Vec<&str> = text
+        .lines()
+        .map_while(|line| line.strip_prefix('#'))
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .collect();
     let comment = comment.join(" ");
     match comment.split_once(['.', ';']) {
         Some((sentence, _)) => sentence.to_owned(),

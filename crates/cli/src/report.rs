@@ -51,7 +51,11 @@ pub fn say(text: &str) {
 /// A word in colour, if people with a terminal read it and have not asked for none.
 fn paint(word: &str, colour: &str) -> String {
     let plain = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    if plain || !io::stderr().is_terminal() { word.to_owned() } else { format!("\x1b[{colour}m{word}\x1b[0m") }
+    if plain || !io::stderr().is_terminal() {
+        word.to_owned()
+    } else {
+        format!("\x1b[{colour}m{word}\x1b[0m")
+    }
 }
 
 /// Says the notes, those of equal text as one.
@@ -110,8 +114,10 @@ fn time(seconds: f64) -> String {
 pub fn json(sliced: &Sliced, stages: &[(&'static str, Duration)]) -> String {
     let figures = sliced.figures.unwrap_or_default();
     let found = sliced.found.unwrap_or_default();
-    let stages: Vec<_> =
-        stages.iter().map(|(name, time)| json!({ "name": name, "ms": time.as_secs_f64() * 1000.0 })).collect();
+    let stages: Vec<_> = stages
+        .iter()
+        .map(|(name, time)| json!({ "name": name, "ms": time.as_secs_f64() * 1000.0 }))
+        .collect();
     let warnings: Vec<_> = sliced
         .notes
         .iter()
@@ -137,11 +143,14 @@ pub fn json(sliced: &Sliced, stages: &[(&'static str, Duration)]) -> String {
 pub fn io_error(path: &Path, doing: &str, error: &io::Error) -> Error {
     use io::ErrorKind;
     let (why, hint) = match error.kind() {
-        ErrorKind::NotFound => ("there is no such file or folder".to_owned(), Some("check the spelling and the folder")),
-        ErrorKind::PermissionDenied => (format!("you may not {doing} it"), Some("check the permissions")),
-        ErrorKind::StorageFull | ErrorKind::FileTooLarge | ErrorKind::QuotaExceeded => {
-            ("there is no room left to write it".to_owned(), Some("nothing was changed; make room and try again"))
+        ErrorKind::NotFound => {
+            ("there is no such file or folder".to_owned(), Some("check the spelling and the folder"))
         }
+        ErrorKind::PermissionDenied => (format!("you may not {doing} it"), Some("check the permissions")),
+        ErrorKind::StorageFull | ErrorKind::FileTooLarge | ErrorKind::QuotaExceeded => (
+            "there is no room left to write it".to_owned(),
+            Some("nothing was changed; make room and try again"),
+        ),
         ErrorKind::IsADirectory => ("it is a folder".to_owned(), Some("name a file")),
         _ => (format!("cannot {doing} it: {error}"), None),
     };

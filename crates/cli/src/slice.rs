@@ -3,8 +3,8 @@
 use crate::args::Slice;
 use crate::dump::Dump;
 use crate::output::{Output, put};
-use crate::report::{self, Done, Stop, io_error};
 use crate::profile;
+use crate::report::{self, Done, Stop, io_error};
 use clayforge::{Error, Event, Form, stage};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::fs;

@@ -26,7 +26,10 @@ impl Profile {
             if !station.active && takes != gives {
                 let name = station.entry.name;
                 let error = Error::new(format!("{name}.active = false: without {name} there is no print"));
-                return Err(self.blame(error.hint("it turns one kind of document into another"), &format!("{name}.active")));
+                return Err(self.blame(
+                    error.hint("it turns one kind of document into another"),
+                    &format!("{name}.active"),
+                ));
             }
         }
         self.check_bead(notes)?;
@@ -52,12 +55,16 @@ impl Profile {
             return Ok(());
         };
         let nozzle = self.machine.nozzle.mm();
-        let stadium = self.get("carve.bead_section").is_some_and(|(_, value)| value == Value::from("stadium"));
+        let stadium =
+            self.get("carve.bead_section").is_some_and(|(_, value)| value == Value::from("stadium"));
         if stadium && width < height {
             let error = Error::new(format!(
                 "carve.bead_width = {width} is below carve.layer_height = {height}: a stadium is wider than high"
             ));
-            return Err(self.blame(error.hint("a wider bead, lower layers, or carve.bead_section = \"ellipse\""), "carve.bead_width"));
+            return Err(self.blame(
+                error.hint("a wider bead, lower layers, or carve.bead_section = \"ellipse\""),
+                "carve.bead_width",
+            ));
         }
         if width < 0.8 * nozzle || width > 3.0 * nozzle {
             notes.say(format!(

@@ -4,8 +4,8 @@ mod check;
 mod show;
 mod toml;
 
-pub use show::{schema, starter};
 pub(crate) use show::{bounds, wrapped};
+pub use show::{schema, starter};
 
 use crate::stages::{Chain, Entry, STAGES, check_sequence};
 use crate::work::{Keys, Work};
@@ -150,7 +150,7 @@ impl Profile {
         let text = Text::read(source)?;
         above.push(source.name.clone());
         if let Some((wanted, at)) = text.inherits()? {
-            let refuse = |message: String| Error::new(message).at(at.clone()).said_by(&source.name);
+            let refuse = |message: String| located(Error::new(message), &source.name, &at);
             if above.len() >= DEEPEST {
                 return Err(refuse(format!("profiles inherit more than {DEEPEST} deep")));
             }
@@ -160,7 +160,8 @@ impl Profile {
                 refused
             })?;
             if above.contains(&parent.name) {
-                let circle = above.iter().chain([&parent.name]).map(String::as_str).collect::<Vec<_>>().join(" → ");
+                let circle =
+                    above.iter().chain([&parent.name]).map(String::as_str).collect::<Vec<_>>().join(" → ");
                 return Err(refuse(format!("profiles inherit in a circle: {circle}")));
             }
             self.take(&parent, lookup, above)?;
@@ -169,12 +170,12 @@ impl Profile {
         for assignment in text.assignments()? {
             let key = assignment.key.join(".");
             self.assign(&assignment.key, &assignment.value).map_err(|error| {
-                let place = if error.place == Place::At("key".to_owned()) {
-                    assignment.key_place.clone()
-                } else {
-                    assignment.value_place.clone()
-                };
-                error.at(place).said_by(&source.name)
+                let is_key = error.place == Place::At("key".to_owned());
+                located(
+                    error,
+                    &source.name,
+                    if is_key { &assignment.key_place } else { &assignment.value_place },
+                )
             })?;
             self.places.insert(key, (source.name.clone(), assignment.value_place));
         }
@@ -197,9 +198,10 @@ impl Profile {
         let wants_text = match path.as_slice() {
             [section, name] => self.sections().iter().any(|known| {
                 known.name == section
-                    && known.fields.iter().any(|field| {
-                        field.name == name && matches!(field.kind, Kind::Text | Kind::Choice(_))
-                    })
+                    && known
+                        .fields
+                        .iter()
+                        .any(|field| field.name == name && matches!(field.kind, Kind::Text | Kind::Choice(_)))
             }),
             _ => false,
         };
@@ -260,8 +262,11 @@ impl Profile {
                 }
                 match keys.set(name, value) {
                     Ok(()) => Ok(()),
-                    Err(SettingError::Refused(why)) => Err(Error::new(format!("{key} = {value} {why}"))
-                        .hint(format!("clayforge explain {key}"))),
+                    Err(SettingError::Refused(why)) => {
+                        let why = out_of_bounds(&keys.fields(), name, value).unwrap_or(why);
+                        Err(Error::new(format!("{key} = {value} {why}"))
+                            .hint(format!("clayforge explain {key}")))
+                    }
                     Err(SettingError::Unknown) => {
                         let near = self.near(Some(section), name);
                         Err(at_key(format!("there is no setting `{key}`"), near))
@@ -299,7 +304,10 @@ impl Profile {
             for field in &known.fields {
                 // A key of the same section is likelier than the same word elsewhere.
                 let bonus = if at_home { 0.1 } else { 0.0 };
-                offer(strsim::jaro_winkler(field.name, name) + bonus, format!("{}.{}", known.name, field.name));
+                offer(
+                    strsim::jaro_winkler(field.name, name) + bonus,
+                    format!("{}.{}", known.name, field.name),
+                );
             }
         }
         if section.is_none() {
@@ -361,10 +369,30 @@ impl Profile {
     /// An error at the place where a key was set.
     fn blame(&self, error: Error, key: &str) -> Error {
         match self.places.get(key) {
-            Some((what, place)) => error.at(place.clone()).said_by(what),
+            Some((what, place)) => located(error, what, place),
             None => error.said_by("profile"),
         }
     }
+}
+
+/// An error at a place of a text, in the form that editors jump to: `clay.toml:14:10: …`.
+fn located(mut error: Error, name: &str, place: &Place) -> Error {
+    error.what = match place {
+        Place::Text { line, column } => format!("{name}:{line}:{column}"),
+        _ => name.to_owned(),
+    };
+    error.place = Place::Whole;
+    error
+}
+
+/// Which bound a number is beyond. A type may refuse it before its bounds are looked at; the bound says more.
+fn out_of_bounds(fields: &[Field], name: &str, value: &Value) -> Option<String> {
+    let field = fields.iter().find(|field| field.name == name)?;
+    let Value::Number(number) = value else { return None };
+    let space = if field.unit.is_empty() { "" } else { " " };
+    let bound = |word: &str, bound: f64| format!("is {word} {bound}{space}{}", field.unit);
+    let below = field.min.filter(|min| number < min).map(|min| bound("below", min));
+    below.or_else(|| field.max.filter(|max| number > max).map(|max| bound("above", max)))
 }
 
 fn sequence_of(value: &Value) -> Result<Vec<&'static str>, Error> {

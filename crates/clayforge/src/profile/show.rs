@@ -93,15 +93,22 @@ pub(crate) fn wrapped(text: &str, width: usize) -> Vec<String> {
 /// The JSON schema of a profile, for editors that know TOML.
 pub fn schema() -> String {
     let mut properties = Map::new();
-    properties.insert("inherits".into(), json!({ "type": "string", "description": "The profile this one is based on: a name or a file." }));
-    properties.insert("chain".into(), json!({ "enum": ["clay", "seed"], "description": "The order of the stages." }));
+    properties.insert(
+        "inherits".into(),
+        json!({ "type": "string", "description": "The profile this one is based on: a name or a file." }),
+    );
+    properties.insert(
+        "chain".into(),
+        json!({ "enum": ["clay", "seed"], "description": "The order of the stages." }),
+    );
     let names: Vec<&str> = crate::STAGES.iter().map(|entry| entry.name).collect();
     properties.insert(
         "sequence".into(),
         json!({ "type": "array", "items": { "enum": names }, "uniqueItems": true, "description": "An order of your own." }),
     );
     for Section { name, about, fields, .. } in Profile::default().sections() {
-        let keys: Map<String, Json> = fields.iter().map(|field| (field.name.to_owned(), field_schema(field))).collect();
+        let keys: Map<String, Json> =
+            fields.iter().map(|field| (field.name.to_owned(), field_schema(field))).collect();
         properties.insert(
             name.to_owned(),
             json!({ "type": "object", "description": about, "properties": keys, "additionalProperties": false }),
@@ -161,6 +168,8 @@ fn to_json(value: &Value) -> Json {
         Value::Number(value) => json!(value),
         Value::Text(value) => json!(value),
         Value::List(values) => Json::Array(values.iter().map(to_json).collect()),
-        Value::Table(values) => Json::Object(values.iter().map(|(name, value)| (name.clone(), to_json(value))).collect()),
+        Value::Table(values) => {
+            Json::Object(values.iter().map(|(name, value)| (name.clone(), to_json(value))).collect())
+        }
     }
 }

@@ -26,7 +26,7 @@ fn an_unknown_key_has_its_place_and_a_suggestion() {
 #[test]
 fn a_value_out_of_bounds_has_its_place() {
     let (message, hint) = refused("# my clay\n[fill]\nwalls   = -1\n");
-    assert_eq!(message, "mine.toml:3:11: fill.walls = -1 is out of range");
+    assert_eq!(message, "mine.toml:3:11: fill.walls = -1 is below 0");
     assert_eq!(hint, "clayforge explain fill.walls");
     let (message, _) = refused("fill.density = 1.5");
     assert_eq!(message, "mine.toml:1:16: fill.density = 1.5 is above 1");
@@ -128,15 +128,23 @@ fn the_command_line_sets_single_keys() {
     assert_eq!(profile.machine.bed.z, skein::Micron(400_000));
     assert_eq!(profile.chain, Chain::Seed);
     let error = profile.set("fill.walls", "-1").expect_err("below");
-    assert_eq!(error.to_string(), "--set fill.walls=-1: fill.walls = -1 is out of range");
-    for (key, value) in [("fill.wals", "2"), ("fill", "2"), ("fill.walls", "two"), ("fill.walls", "[2"), ("", ""), ("inherits", "clay")] {
+    assert_eq!(error.to_string(), "--set fill.walls=-1: fill.walls = -1 is below 0");
+    for (key, value) in [
+        ("fill.wals", "2"),
+        ("fill", "2"),
+        ("fill.walls", "two"),
+        ("fill.walls", "[2"),
+        ("", ""),
+        ("inherits", "clay"),
+    ] {
         assert!(profile.set(key, value).is_err(), "{key}={value}");
     }
 }
 
 #[test]
 fn a_sequence_that_breaks_a_dependency_is_refused_with_the_pair() {
-    let profile = read("\nsequence = [\"carve\", \"preface\", \"fill\", \"inset\", \"export\"]\n").expect("names are known");
+    let profile = read("\nsequence = [\"carve\", \"preface\", \"fill\", \"inset\", \"export\"]\n")
+        .expect("names are known");
     let error = profile.check(&mut skein::Notes::default()).expect_err("fill before inset");
     assert_eq!(
         error.to_string(),

@@ -1,6 +1,6 @@
 //! TOML to [`Value`]s, with the place of every key.
 
-use super::Source;
+use super::{Source, located};
 use skein::{Error, Place, Value};
 use toml_edit::{Document, Item, Key, TableLike};
 
@@ -24,7 +24,7 @@ impl<'a> Text<'a> {
         let document = Document::parse(source.text.as_str()).map_err(|error| {
             let place = error.span().map_or(Place::Whole, |span| place(&source.text, span.start));
             let message = error.message().trim().replace('\n', ", ");
-            Error::new(message).at(place).said_by(&source.name)
+            located(Error::new(message), &source.name, &place)
         })?;
         Ok(Self { source, document })
     }
@@ -35,7 +35,11 @@ impl<'a> Text<'a> {
         let place = self.place_of(item);
         match item.as_str() {
             Some(name) => Ok(Some((name.to_owned(), place))),
-            None => Err(Error::new("inherits is the name of a profile, in quotes").at(place).said_by(&self.source.name)),
+            None => Err(located(
+                Error::new("inherits is the name of a profile, in quotes"),
+                &self.source.name,
+                &place,
+            )),
         }
     }
 
@@ -50,9 +54,10 @@ impl<'a> Text<'a> {
                 Some(section) => {
                     if section.iter().next().is_none() && !KNOWN_TOP.contains(&name) {
                         // An empty section says nothing, but its name may be wrong.
-                        super::Profile::default()
-                            .known_section(name)
-                            .map_err(|error| error.at(self.key_place(self.document.as_table(), name)).said_by(&self.source.name))?;
+                        super::Profile::default().known_section(name).map_err(|error| {
+                            let place = self.key_place(self.document.as_table(), name);
+                            located(error, &self.source.name, &place)
+                        })?;
                     }
                     for (key, item) in section.iter() {
                         found.push(self.assignment(&[name, key], section, item)?);
@@ -67,9 +72,15 @@ impl<'a> Text<'a> {
     fn assignment(&self, path: &[&str], table: &dyn TableLike, item: &Item) -> Result<Assignment, Error> {
         let name = path.last().copied().unwrap_or_default();
         let (key_place, value_place) = (self.key_place(table, name), self.place_of(item));
-        let value = value(item)
-            .map_err(|why| Error::new(format!("{} {why}", path.join("."))).at(value_place.clone()).said_by(&self.source.name))?;
-        Ok(Assignment { key: path.iter().map(|part| (*part).to_owned()).collect(), value, key_place, value_place })
+        let value = value(item).map_err(|why| {
+            located(Error::new(format!("{} {why}", path.join("."))), &self.source.name, &value_place)
+        })?;
+        Ok(Assignment {
+            key: path.iter().map(|part| (*part).to_owned()).collect(),
+            value,
+            key_place,
+            value_place,
+        })
     }
 
     fn key_place(&self, table: &dyn TableLike, name: &str) -> Place {
@@ -162,7 +173,8 @@ pub(super) fn spell(value: &Value) -> String {
         Value::Text(text) => toml_edit::Value::from(text.as_str()).to_string(),
         Value::List(values) => format!("[{}]", values.iter().map(spell).collect::<Vec<_>>().join(", ")),
         Value::Table(values) => {
-            let entries: Vec<String> = values.iter().map(|(name, value)| format!("{name} = {}", spell(value))).collect();
+            let entries: Vec<String> =
+                values.iter().map(|(name, value)| format!("{name} = {}", spell(value))).collect();
             format!("{{ {} }}", entries.join(", "))
         }
     }

@@ -393,6 +393,15 @@ impl Curves {
         ))
     }
 
+    /// How far along a ray, in lengths of `toward`, the first curve is met, if nearer than `reach`.
+    pub(super) fn first_hit(&self, from: V, toward: V, reach: f64) -> Option<f64> {
+        let mut best = reach;
+        for tree in &self.rings {
+            tree.first_hit(self, tree.levels.len() - 1, 0, from, toward, &mut best);
+        }
+        (best < reach).then_some(best)
+    }
+
     /// How often the curves go round a point, counter-clockwise.
     fn winding(&self, point: V) -> i32 {
         self.rings.iter().map(|tree| tree.winding(self, tree.levels.len() - 1, 0, point)).sum()
@@ -507,6 +516,32 @@ impl Tree {
         } else {
             for child in other.children(two.0, two.1) {
                 self.with_other(curves, other, one, child, found);
+            }
+        }
+    }
+
+    fn first_hit(&self, curves: &Curves, level: usize, index: usize, from: V, toward: V, best: &mut f64) {
+        let mut ray = Box2::EMPTY;
+        ray.add(from);
+        ray.add(from.plus(toward, *best));
+        if !self.bounds(level, index).meets(&ray) {
+            return;
+        }
+        if level > 0 {
+            for (level, index) in self.children(level, index) {
+                self.first_hit(curves, level, index, from, toward, best);
+            }
+            return;
+        }
+        for side in self.sides(0, index) {
+            let (a, b) = (curves.points[side], curves.after(self, side));
+            let (left, right) = (toward.cross(from.to(a)), toward.cross(from.to(b)));
+            if (left >= 0.0) != (right >= 0.0) {
+                let share = a.plus(a.to(b), left / (left - right));
+                let along = from.to(share).dot(toward) / toward.dot(toward);
+                if along >= 0.0 && along < *best {
+                    *best = along;
+                }
             }
         }
     }

@@ -2,12 +2,15 @@
 
 pub mod boolean;
 mod curves;
+pub mod hatch;
+mod middle;
 mod offset;
 mod point;
 mod ring;
 mod simplify;
 
-pub use offset::{crossing, offset, outside, united};
+pub use middle::{MiddleLine, thin_parts};
+pub use offset::{crossing, facing, offset, outside, united};
 pub use point::{Point, cross};
 pub use ring::Ring;
 pub use simplify::simplified;

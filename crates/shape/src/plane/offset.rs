@@ -135,3 +135,24 @@ pub fn outside(loops: &[Ring], region: &[Ring]) -> Vec<(f64, f64)> {
     region.iter().for_each(|ring| push(&mut curves, ring));
     curves.outside(loops.len()).into_iter().map(|part| (part.x, part.y)).collect()
 }
+
+/// For every side of the rings of a region, how far across the region the next ring faces it, in microns; `None` where
+/// it is `reach` or more. Measured at the middle of the side, at right angles to it.
+pub fn facing(region: &[Ring], reach: f64) -> Vec<Vec<Option<f64>>> {
+    let mut curves = Curves::default();
+    for ring in region {
+        curves.push(ring.0.iter().map(|point| V::of(*point)));
+    }
+    let look = |(from, to): (Point, Point)| {
+        let (from, side) = (V::of(from), V::of(from).to(V::of(to)));
+        let length = side.dot(side).sqrt();
+        if length == 0.0 {
+            return None;
+        }
+        let middle = from.plus(side, 0.5);
+        // A micron inwards, so that the ray does not meet the side it starts from.
+        let start = middle.plus(side.left(), 1.0 / length);
+        curves.first_hit(start, side.left(), reach / length).map(|share| share * length + 1.0)
+    };
+    region.iter().map(|ring| ring.segments().map(look).collect()).collect()
+}

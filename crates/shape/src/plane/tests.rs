@@ -158,3 +158,85 @@ proptest! {
         prop_assert!(area(&outside) < 1e-2, "{}", area(&outside));
     }
 }
+
+#[test]
+fn a_strip_thinner_than_a_bead_gets_one_line_on_its_middle() {
+    let strip = [ring(&[(0, 0), (20_000, 0), (20_000, 500), (0, 500)])];
+    let (lines, lost) = thin_parts(&strip, &offset(&strip, -360.0), 720.0);
+    assert!(lost.is_empty());
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    let line = &lines[0];
+    assert!(line.points.iter().all(|point| (point.y - 250).abs() < 30), "{line:?}");
+    assert!(line.widths.iter().all(|width| (width - 500.0).abs() < 40.0), "{line:?}");
+    let length: f64 = line.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+    assert!(length > 19_000.0, "{length}");
+}
+
+#[test]
+fn a_ring_wall_thinner_than_a_bead_gets_one_closed_line() {
+    let circle = |radius: f64| {
+        Ring(
+            (0..48)
+                .map(|index| {
+                    let angle = std::f64::consts::TAU * f64::from(index) / 48.0;
+                    Point::new((radius * libm::cos(angle)) as i32, (radius * libm::sin(angle)) as i32)
+                })
+                .collect(),
+        )
+    };
+    let wall = [circle(15_000.0), circle(14_400.0).reversed()];
+    let (lines, _) = thin_parts(&wall, &offset(&wall, -360.0), 720.0);
+    assert_eq!(lines.len(), 1);
+    assert_eq!(lines[0].points.first(), lines[0].points.last());
+    let radii: Vec<f64> = lines[0].points.iter().map(|point| point.distance(Point::default())).collect();
+    assert!(radii.iter().all(|radius| (14_550.0..14_750.0).contains(radius)), "{radii:?}");
+}
+
+#[test]
+fn a_solid_square_has_no_thin_part() {
+    let region = [square(0, 20_000)];
+    assert_eq!(thin_parts(&region, &offset(&region, -360.0), 720.0), (vec![], vec![]));
+}
+
+#[test]
+fn a_fin_on_a_block_gets_a_line() {
+    let fin = [ring(&[
+        (0, 0),
+        (10_000, 0),
+        (10_000, 4_800),
+        (16_000, 4_800),
+        (16_000, 5_200),
+        (10_000, 5_200),
+        (10_000, 10_000),
+        (0, 10_000),
+    ])];
+    let (lines, _) = thin_parts(&fin, &offset(&fin, -360.0), 720.0);
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    assert!(lines[0].points.iter().all(|point| (point.y - 5_000).abs() < 60), "{lines:?}");
+}
+
+mod hatching {
+    use super::*;
+    use crate::plane::hatch::Hatch;
+
+    #[test]
+    fn a_square_becomes_one_zig_zag() {
+        let region = [square(1_000, 9_000)];
+        let hatch = Hatch::new(&region, (1.0, 0.0), 1_000.0);
+        let threads = hatch.threads(hatch.rows(), 3_000.0);
+        assert_eq!(threads.len(), 1);
+        let length: f64 = threads[0].windows(2).map(|pair| pair[0].distance(pair[1])).sum();
+        // Rows at 1 … 8 mm, eight millimetres long each, seven joints of one millimetre.
+        assert_eq!(length, 8.0 * 8_000.0 + 7.0 * 1_000.0);
+    }
+
+    #[test]
+    fn a_hole_is_gone_round() {
+        let region = [square(0, 20_000), square(6_000, 14_000).reversed()];
+        let hatch = Hatch::new(&region, (0.6, 0.8), 1_000.0);
+        let threads = hatch.threads(hatch.rows(), 5_000.0);
+        assert!(threads.len() <= 4, "{}", threads.len());
+        let hole = square(6_100, 13_900);
+        assert!(threads.iter().flatten().all(|point| !hole.contains(*point)));
+    }
+}

@@ -4,7 +4,7 @@ mod meter;
 #[cfg(test)]
 mod tests;
 
-use meter::{Meter, Nozzle, Total};
+use meter::{Change, Meter, Nozzle, Total};
 use rayon::prelude::*;
 use skein::{Choice, Error, Layer, Line, Notes, Place, Ratio, Reader, Settings, Skein, Stage, Tag};
 
@@ -41,22 +41,18 @@ impl Stage for Dimension {
 
         let mut nozzle = Nozzle::default();
         let mut below = meter.write(&mut skein.head, usual, nozzle, Total::default())?;
-        nozzle = nozzle.after(&skein.head);
+        nozzle = nozzle.after(Change::of(&skein.head));
         let nozzles = entering(&mut nozzle, &skein.layers);
-        let clay = skein
+        let clay: Vec<Result<Total, Error>> = skein
             .layers
             .par_iter()
             .zip(&nozzles)
-            .enumerate()
-            .map(|(index, (layer, nozzle))| {
-                let clay = meter.measure(&layer.lines, layer.height(&facts)?, *nozzle);
-                clay.map_err(|error| error.at(Place::Layer(index)))
-            })
-            .collect::<Result<Vec<Total>, Error>>()?;
+            .map(|(layer, nozzle)| meter.measure(&layer.lines, layer.height(&facts)?, *nozzle))
+            .collect();
         let mut bases = Vec::with_capacity(clay.len());
-        for clay in clay {
+        for (index, clay) in clay.into_iter().enumerate() {
             bases.push(below);
-            below = below + clay;
+            below = below + clay.map_err(|error| error.at(Place::Layer(index)))?;
         }
         skein.each(|index, layer| {
             let height = layer.height(&facts)?;
@@ -85,14 +81,12 @@ impl Dimension {
     }
 }
 
-/// Where the nozzle is and how much flows when each layer begins; afterwards `nozzle` is where the last layer ends.
+/// Where the nozzle is and how much flows when each layer begins; afterwards `nozzle` is what the last layer leaves.
 fn entering(nozzle: &mut Nozzle, layers: &[Layer]) -> Vec<Nozzle> {
-    layers
-        .iter()
-        .map(|layer| {
-            let entering = *nozzle;
-            *nozzle = entering.after(&layer.lines);
-            entering
-        })
-        .collect()
+    let changes: Vec<Change> = layers.par_iter().map(|layer| Change::of(&layer.lines)).collect();
+    let step = |change| {
+        let next = nozzle.after(change);
+        std::mem::replace(nozzle, next)
+    };
+    changes.into_iter().map(step).collect()
 }

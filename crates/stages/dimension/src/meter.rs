@@ -40,14 +40,30 @@ impl Default for Nozzle {
 }
 
 impl Nozzle {
-    /// After these lines. Looked for from their end, where the last move nearly always stands.
-    pub(crate) fn after(self, lines: &[Line]) -> Self {
-        let at = lines.iter().rev().find_map(Line::as_move).map(|step| step.to);
-        let flow = lines.iter().rev().find_map(|line| match line {
+    /// After these lines.
+    pub(crate) fn after(self, change: Change) -> Self {
+        Self { at: change.at.or(self.at), flow: change.flow.unwrap_or(self.flow) }
+    }
+}
+
+/// Where some lines leave the nozzle, and the flow they leave, if they have any.
+#[derive(Clone, Copy)]
+pub(crate) struct Change {
+    at: Option<Point3>,
+    flow: Option<Ratio>,
+}
+
+impl Change {
+    /// Looked for from the end, where the last move nearly always stands.
+    pub(crate) fn of(lines: &[Line]) -> Self {
+        let flow = |line: &Line| match line {
             Line::Flow(flow) => Some(*flow),
             _ => None,
-        });
-        Self { at: at.or(self.at), flow: flow.unwrap_or(self.flow) }
+        };
+        Self {
+            at: lines.iter().rev().find_map(Line::as_move).map(|step| step.to),
+            flow: lines.iter().rev().find_map(flow),
+        }
     }
 }
 

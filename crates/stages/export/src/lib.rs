@@ -1,13 +1,15 @@
 #![doc = include_str!("../README.md")]
 
 mod alteration;
+mod entry;
 mod pen;
 mod remarks;
 #[cfg(test)]
 mod tests;
 
 use alteration::Alteration;
-use pen::{Entry, Pen, Style};
+use entry::{Change, Entry};
+use pen::{Pen, Style};
 use rayon::prelude::*;
 use skein::{Choice, Error, Layer, Line, Notes, Place, Settings, Skein};
 
@@ -73,7 +75,7 @@ impl Export {
         sink(&pen.text)?;
 
         let Skein { head, layers, tail } = skein;
-        let (entries, leaving) = entries(Entry::default().after(&head), &layers);
+        let (entries, leaving) = entries(Entry::default().after(Change::of(&head)), &layers);
         drop(head);
         let mut layers = layers.into_iter().zip(entries).enumerate();
         loop {
@@ -110,14 +112,16 @@ fn piece(style: &Style, index: usize, layer: Layer, entry: Entry) -> Result<Vec<
     Ok(pen.text)
 }
 
-/// What the machine knows when each layer begins, and when the last one ends.
+/// What the machine knows when each layer begins, and when the last one ends. The layers are searched side by side,
+/// since a skein without any M108 is searched to its first line.
 fn entries(mut entry: Entry, layers: &[Layer]) -> (Vec<Entry>, Entry) {
-    let entries = layers.iter().map(|layer| {
-        let before = entry;
-        entry = entry.after(&layer.lines);
-        before
-    });
-    (entries.collect(), entry)
+    let changes: Vec<Change> = layers.par_iter().map(|layer| Change::of(&layer.lines)).collect();
+    let step = |change| {
+        let next = entry.after(change);
+        std::mem::replace(&mut entry, next)
+    };
+    let entries = changes.into_iter().map(step).collect();
+    (entries, entry)
 }
 
 /// What a potter should look at before the file goes to the machine.

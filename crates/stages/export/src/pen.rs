@@ -1,6 +1,7 @@
 //! The writer of moves. It knows what the machine knows and says only what changes.
 
 use crate::alteration::{bare, command};
+use crate::entry::{Entry, is_foreign};
 use crate::{Comments, Export, remarks};
 use skein::{
     Bead, Error, Extrusion, Facts, Feature, Feed, Layer, Line, Micron, Move, Nozzle, Point3, Ratio, Skein,
@@ -24,17 +25,6 @@ pub(crate) struct Style {
 pub(crate) struct Size {
     pub(crate) top: Micron,
     pub(crate) height: Micron,
-}
-
-/// What is known when a layer begins, from the lines before it.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Entry {
-    at: Option<Point3>,
-    /// The last feed that the skein has said.
-    feed: Option<Feed>,
-    flow: Option<Ratio>,
-    /// The last E word, for files that count from the start.
-    e: Option<Extrusion>,
 }
 
 impl Style {
@@ -77,43 +67,6 @@ impl Style {
         }
         let round = |value: i32| (value + value.signum() * (self.step / 2)) / self.step * self.step;
         Point3 { x: round(at.x), y: round(at.y), z: round(at.z) }
-    }
-}
-
-impl Entry {
-    /// After these lines. Everything is looked for from the end, where it nearly always stands.
-    pub(crate) fn after(self, lines: &[Line]) -> Self {
-        let last = |wanted: &dyn Fn(&Line) -> bool| lines.iter().rev().find(|line| wanted(line));
-        // Behind a command of the potter's own nobody knows where the nozzle is.
-        let at = match last(&|line| line.as_move().is_some() || is_foreign(line)) {
-            Some(Line::Move(step)) => Some(step.to),
-            Some(_) => None,
-            None => self.at,
-        };
-        let step = |wanted: &dyn Fn(&Move) -> bool| {
-            last(&|line| line.as_move().is_some_and(wanted)).and_then(Line::as_move).copied()
-        };
-        let flow = match last(&|line| matches!(line, Line::Flow(_))) {
-            Some(Line::Flow(flow)) => Some(*flow),
-            _ => self.flow,
-        };
-        Self {
-            at,
-            feed: step(&|step| step.feed.is_some()).and_then(|step| step.feed).or(self.feed),
-            flow,
-            e: step(&|step| step.extrusion.is_some()).and_then(|step| step.extrusion).or(self.e),
-        }
-    }
-}
-
-/// Whether a line may move the nozzle or change what its words mean. Remarks and M-commands do not.
-fn is_foreign(line: &Line) -> bool {
-    match line {
-        // Waiting and saying what has been said is no change.
-        Line::Verbatim(text) => {
-            matches!(command(text), Some((b'G', number, _)) if ![4, 21, 90].contains(&number))
-        }
-        _ => false,
     }
 }
 
@@ -184,7 +137,12 @@ impl<'a> Pen<'a> {
     }
 
     fn verbatim(&mut self, line: &Line, text: &str) {
-        let text = if self.style.comments == Comments::None { bare(text) } else { text };
+        let remarks = match self.style.comments {
+            Comments::Layers => true,
+            Comments::Head => self.size.is_none(),
+            Comments::None => false,
+        };
+        let text = if remarks { text } else { bare(text) };
         // A tag that no stage knew is still a tag.
         if !text.is_empty() && !text.starts_with('(') {
             self.text.extend_from_slice(text.as_bytes());

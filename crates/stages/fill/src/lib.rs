@@ -1,6 +1,15 @@
-//! Inner walls and infill.
+#![doc = include_str!("../README.md")]
 
-use skein::{Angle, Choice, Error, Notes, Point, Ratio, Settings, Skein, Stage};
+mod infill;
+mod order;
+mod source;
+mod strand;
+mod walls;
+
+use rayon::prelude::*;
+use skein::{Angle, Choice, Direction, Error, Layer, Notes, Point, Ratio, Settings, Skein, Stage};
+use source::Source;
+use strand::{Island, Strand};
 
 /// Adds the inner walls and the infill, and puts the threads of each layer in order.
 #[derive(Clone, Debug, Settings)]
@@ -66,7 +75,77 @@ pub enum Start {
 impl Stage for Fill {
     const NAME: &'static str = "fill";
 
-    fn craft(&self, skein: Skein, _notes: &mut Notes) -> Result<Skein, Error> {
+    fn craft(&self, mut skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
+        let facts = skein.facts()?;
+        // Read everything first: what is solid depends on the layers around.
+        let sources = std::mem::take(&mut skein.layers)
+            .into_par_iter()
+            .enumerate()
+            .map(|(index, layer)| Source::read(layer, &facts).map_err(|error| place(error, index)))
+            .collect::<Result<Vec<Source>, Error>>()?;
+        let planned: Vec<(Vec<Island>, Notes)> = (0..sources.len())
+            .into_par_iter()
+            .map(|index| {
+                let mut notes = Notes::default();
+                let islands = self.islands(&sources, index, &mut notes);
+                (islands, notes)
+            })
+            .collect();
+        let mut layers = Vec::with_capacity(planned.len());
+        for (islands, remarks) in planned {
+            notes.append(remarks);
+            layers.push(islands);
+        }
+        // Where a layer starts depends on where the last one ended.
+        let ordered = order::layers(layers, self);
+        skein.layers = sources
+            .into_par_iter()
+            .zip(ordered)
+            .enumerate()
+            .map(|(index, (source, islands))| Layer { lines: source.write(&islands, self.direction(index)) })
+            .collect();
         Ok(skein)
     }
 }
+
+impl Fill {
+    /// The direction of the infill lines of a layer that is no bridge.
+    fn direction(&self, layer: usize) -> Direction {
+        let turn = if layer % 2 == 1 { self.odd_layer_extra_rotation.0 } else { 0 };
+        Angle(self.begin_rotation.0 + turn).direction()
+    }
+
+    /// Everything that is laid on a layer, island by island, in no order yet.
+    fn islands(&self, sources: &[Source], index: usize, notes: &mut Notes) -> Vec<Island> {
+        let source = &sources[index];
+        if source.outlines.is_empty() {
+            return Vec::new();
+        }
+        let surroundings = self.surroundings(sources, index);
+        let solid = self.density == Ratio::ONE || surroundings.is_none();
+        let mut strands: Vec<Strand> = source.middles.clone();
+        let walls = walls::of(source, self, solid, &mut strands);
+        let direction = source.bridge.unwrap_or_else(|| self.direction(index));
+        let job = infill::Job { fill: self, source, walls: &walls, direction, surroundings };
+        job.run(index, &mut strands, notes);
+        strand::sort_into_islands(&source.outlines, strands)
+    }
+
+    /// The layers that must all hold clay above and below a place for it not to be a surface; `None` when one of
+    /// them is missing, so that everything is surface.
+    fn surroundings<'a>(&self, sources: &'a [Source], index: usize) -> Option<Vec<&'a Source>> {
+        let below = (1..=self.base_layers as usize).map(|step| index.checked_sub(step));
+        let above = (1..=self.top_layers as usize).map(|step| index.checked_add(step));
+        below
+            .chain(above)
+            .map(|layer| sources.get(layer?).filter(|source| !source.outlines.is_empty()))
+            .collect()
+    }
+}
+
+fn place(error: Error, layer: usize) -> Error {
+    if error.place == skein::Place::Whole { error.at(skein::Place::Layer(layer)) } else { error }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,10 @@
-//! Outlines to the centre line of the outermost bead.
+#![doc = include_str!("../README.md")]
 
-use skein::{Choice, Error, Notes, Settings, Skein, Stage};
+use shape::plane::{MiddleLine, offset, thin_parts};
+use skein::{
+    Bead, Choice, Error, Facts, Feature, Layer, Line, Micron, Move, Notes, Point, Point3, Ratio, Ring,
+    Settings, Side, Skein, Stage, Tag, boundary,
+};
 
 /// Lays the outermost wall half a bead inside the outline, and a single bead where the part is too thin for that.
 #[derive(Clone, Debug, Settings)]
@@ -8,6 +12,9 @@ pub struct Inset {
     /// What becomes of parts thinner than a bead.
     #[setting(default = ThinWalls::Middle)]
     pub thin_walls: ThinWalls,
+    /// The narrowest bead the nozzle can lay, as a share of the bead width. Parts thinner than that come out this wide.
+    #[setting(default = 0.4, min = 0.1, max = 1.0)]
+    pub least_width: Ratio,
 }
 
 /// What becomes of parts thinner than a bead.
@@ -22,7 +29,156 @@ pub enum ThinWalls {
 impl Stage for Inset {
     const NAME: &'static str = "inset";
 
-    fn craft(&self, skein: Skein, _notes: &mut Notes) -> Result<Skein, Error> {
-        Ok(skein)
+    fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
+        let facts = skein.facts()?;
+        skein.rewrite(notes, |index, layer, notes| self.layer(index, &layer, &facts, notes))
     }
+}
+
+impl Inset {
+    fn layer(
+        &self,
+        index: usize,
+        layer: &Layer,
+        facts: &Facts,
+        notes: &mut Notes,
+    ) -> Result<Vec<Line>, Error> {
+        let bead = facts.bead()?.of_height(layer.height(facts)?);
+        let z = layer.nozzle_z(facts)?.0;
+        let outlines = boundary(&layer.lines);
+        let half = bead.width.um() / 2.0;
+        let walls = offset(&outlines, -half);
+        let (middles, lost) = thin_parts(&outlines, &walls, bead.width.um());
+        for spot in lost {
+            notes.spot(index, spot, "a part thinner and shorter than a bead is left out");
+        }
+        let homes = homes(&outlines, &walls);
+        let mut lines =
+            Vec::with_capacity(layer.lines.len() + walls.iter().map(|wall| wall.0.len() + 6).sum::<usize>());
+        let mut outline = 0;
+        // The middles go last in the layer, inside whatever block closes it.
+        for line in &layer.lines {
+            match line {
+                Line::Close(Tag::BoundaryPerimeter) => {
+                    for (wall, _) in walls.iter().zip(&homes).filter(|(_, home)| **home == outline) {
+                        loop_thread(wall, z, &mut lines);
+                    }
+                    outline += 1;
+                }
+                Line::Close(Tag::BridgeRotation | Tag::Layer)
+                    if !middles.is_empty() && outline != usize::MAX =>
+                {
+                    self.middles(index, &middles, &bead, z, notes, &mut lines)?;
+                    outline = usize::MAX;
+                }
+                _ => {}
+            }
+            lines.push(line.clone());
+        }
+        Ok(lines)
+    }
+
+    fn middles(
+        &self,
+        index: usize,
+        middles: &[MiddleLine],
+        bead: &Bead,
+        z: i32,
+        notes: &mut Notes,
+        lines: &mut Vec<Line>,
+    ) -> Result<(), Error> {
+        for middle in middles {
+            let spot = middle.points.first().copied().unwrap_or_default();
+            if self.thin_walls == ThinWalls::Report {
+                notes.spot(index, spot, "a part thinner than a bead is left out");
+                continue;
+            }
+            let least = self.least_width.f64() * bead.width.um();
+            if middle.widths.iter().any(|width| *width < least) {
+                notes.spot(
+                    index,
+                    spot,
+                    "a part is thinner than the narrowest bead and comes out wider than drawn",
+                );
+            }
+            let (open, close) = Feature::Middle.tags();
+            lines.push(open);
+            middle_thread(middle, least, bead, z, lines)?;
+            lines.push(close);
+        }
+        Ok(())
+    }
+}
+
+/// The outline that each wall belongs to: the smallest that holds it, or for the wall of a hole the hole inside it.
+fn homes(outlines: &[Ring], walls: &[Ring]) -> Vec<usize> {
+    let smallest = |wall: &Ring, fits: &dyn Fn(&Ring) -> bool| {
+        let candidates =
+            outlines.iter().enumerate().filter(|(_, outline)| Side::of(outline) == Side::of(wall));
+        let mut found: Option<(usize, i128)> = None;
+        for (index, outline) in candidates {
+            let area = outline.area2().abs();
+            if found.is_none_or(|(_, least)| area < least) && fits(outline) {
+                found = Some((index, area));
+            }
+        }
+        found.map_or(0, |(index, _)| index)
+    };
+    if outlines.len() == 1 {
+        return vec![0; walls.len()];
+    }
+    walls
+        .iter()
+        .map(|wall| match Side::of(wall) {
+            Side::Outer => {
+                smallest(wall, &|outline| wall.0.first().is_some_and(|point| outline.contains(*point)))
+            }
+            Side::Inner => {
+                smallest(wall, &|outline| outline.0.first().is_some_and(|point| wall.contains(*point)))
+            }
+        })
+        .collect()
+}
+
+/// A closed wall: to its first point, round it, and back.
+fn loop_thread(wall: &Ring, z: i32, lines: &mut Vec<Line>) {
+    let step = |point: &Point| Line::Move(Move::to(Point3 { x: point.x, y: point.y, z }));
+    let Some(first) = wall.0.first() else { return };
+    let (open, close) = Feature::Edge(Side::of(wall)).tags();
+    lines.push(open);
+    lines.push(step(first));
+    lines.push(Line::On);
+    lines.extend(wall.0[1..].iter().chain([first]).map(step));
+    lines.push(Line::Off);
+    lines.push(close);
+}
+
+/// A bead along a middle line, with as much clay on each stretch as the part is wide there.
+fn middle_thread(
+    middle: &MiddleLine,
+    least: f64,
+    bead: &Bead,
+    z: i32,
+    lines: &mut Vec<Line>,
+) -> Result<(), Error> {
+    let step = |point: &Point| Line::Move(Move::to(Point3 { x: point.x, y: point.y, z }));
+    let Some(first) = middle.points.first() else { return Ok(()) };
+    lines.push(step(first));
+    lines.push(Line::On);
+    let mut flow = None;
+    for index in 1..middle.points.len() {
+        let width = f64::midpoint(middle.widths[index - 1], middle.widths[index]).max(least);
+        let width = Micron::from_mm(width / 1000.0).unwrap_or(bead.width);
+        // In hundredths: a finer step than any ram, and fewer lines.
+        let share = (Bead { width, ..*bead }.area() / bead.area() * 100.0).round() / 100.0;
+        let share = Ratio::from_f64(share).ok_or_else(|| Error::new("a bead has no flow"))?;
+        if flow != Some(share) {
+            lines.push(Line::Flow(share));
+            flow = Some(share);
+        }
+        lines.push(step(&middle.points[index]));
+    }
+    lines.push(Line::Off);
+    lines.push(Line::Flow(Ratio::ONE));
+    Ok(())
 }

@@ -1,0 +1,123 @@
+//! In which order a layer's strands are laid, and where each begins.
+
+use crate::strand::{Island, Strand};
+use crate::{Fill, Start, ThreadSequence};
+use skein::{Feature, Point};
+
+/// Puts every layer in order, each starting from where the one before ended.
+pub fn layers(layers: Vec<Vec<Island>>, fill: &Fill) -> Vec<Vec<Island>> {
+    let mut here = fill.seam;
+    layers.into_iter().map(|islands| layer(islands, fill, &mut here)).collect()
+}
+
+fn layer(mut islands: Vec<Island>, fill: &Fill, here: &mut Point) -> Vec<Island> {
+    let mut ordered = Vec::with_capacity(islands.len());
+    islands.retain(|island| !island.strands.is_empty());
+    let boxes = |island: &Island| {
+        let points = island.strands.iter().flat_map(|strand| &strand.points);
+        points.fold((Point::new(i32::MAX, i32::MAX), Point::new(i32::MIN, i32::MIN)), |(low, high), point| {
+            (
+                Point::new(low.x.min(point.x), low.y.min(point.y)),
+                Point::new(high.x.max(point.x), high.y.max(point.y)),
+            )
+        })
+    };
+    let mut left: Vec<(Island, (Point, Point))> = islands
+        .into_iter()
+        .map(|island| {
+            let bounds = boxes(&island);
+            (island, bounds)
+        })
+        .collect();
+    while !left.is_empty() {
+        let nearest =
+            (0..left.len()).min_by_key(|index| distance2_to_box(*here, left[*index].1)).unwrap_or(0);
+        let (island, _) = left.remove(nearest);
+        ordered.push(order_island(island, fill, here));
+    }
+    ordered
+}
+
+fn distance2_to_box(from: Point, (low, high): (Point, Point)) -> i64 {
+    let nearest = Point::new(from.x.clamp(low.x, high.x), from.y.clamp(low.y, high.y));
+    from.distance2(nearest)
+}
+
+/// The kinds of strand in the order of a thread sequence. Beads on the middle of gaps between walls go with the inner
+/// walls.
+fn turns(sequence: ThreadSequence) -> [Turn; 3] {
+    use Turn::{Infill, Loops, Perimeter};
+    match sequence {
+        ThreadSequence::LoopsPerimeterInfill => [Loops, Perimeter, Infill],
+        ThreadSequence::LoopsInfillPerimeter => [Loops, Infill, Perimeter],
+        ThreadSequence::InfillLoopsPerimeter => [Infill, Loops, Perimeter],
+        ThreadSequence::InfillPerimeterLoops => [Infill, Perimeter, Loops],
+        ThreadSequence::PerimeterLoopsInfill => [Perimeter, Loops, Infill],
+        ThreadSequence::PerimeterInfillLoops => [Perimeter, Infill, Loops],
+    }
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Turn {
+    Loops,
+    Perimeter,
+    Infill,
+}
+
+impl Turn {
+    fn of(feature: Feature) -> Self {
+        match feature {
+            Feature::Edge(_) => Self::Perimeter,
+            Feature::Loop(_) | Feature::Middle => Self::Loops,
+            Feature::Infill => Self::Infill,
+        }
+    }
+}
+
+fn order_island(island: Island, fill: &Fill, here: &mut Point) -> Island {
+    let mut left = island.strands;
+    let mut strands = Vec::with_capacity(left.len());
+    for turn in turns(fill.thread_sequence) {
+        loop {
+            // The nearest place where a strand of this turn may begin.
+            let mut best: Option<(i64, usize, usize)> = None;
+            for (index, strand) in
+                left.iter().enumerate().filter(|(_, strand)| Turn::of(strand.feature) == turn)
+            {
+                let (gap, at) = nearest_start(strand, *here);
+                if best.is_none_or(|(least, ..)| gap < least) {
+                    best = Some((gap, index, at));
+                }
+            }
+            let Some((_, index, at)) = best else { break };
+            let mut strand = left.swap_remove(index);
+            if strand.closed {
+                let at = if fill.start == Start::Seam { nearest_start(&strand, fill.seam).1 } else { at };
+                begin_at(&mut strand, at);
+            } else if at > 0 {
+                strand.reverse();
+            }
+            let end = if strand.closed { strand.points.first() } else { strand.points.last() };
+            *here = end.copied().unwrap_or(*here);
+            strands.push(strand);
+        }
+    }
+    Island { strands, ..island }
+}
+
+/// How far it is to where a strand can begin, squared, and the index of that point: any corner of a closed strand,
+/// either end of an open one.
+fn nearest_start(strand: &Strand, from: Point) -> (i64, usize) {
+    let last = strand.points.len() - 1;
+    let starts: &mut dyn Iterator<Item = usize> =
+        if strand.closed { &mut (0..=last) } else { &mut [0, last].into_iter() };
+    starts.map(|index| (from.distance2(strand.points[index]), index)).min().unwrap_or((i64::MAX, 0))
+}
+
+/// Turns a closed strand so that it begins at one of its corners.
+fn begin_at(strand: &mut Strand, corner: usize) {
+    strand.points.rotate_left(corner);
+    if strand.flows.len() == strand.points.len() {
+        strand.flows.rotate_left(corner);
+    }
+}
