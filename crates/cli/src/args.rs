@@ -83,7 +83,7 @@ pub struct Slice {
     /// Write the text and the drawn layers of every stage into this folder
     #[arg(long, value_name = "DIR")]
     pub dump: Option<PathBuf>,
-    /// Stop behind this stage and write its text
+    /// Stop behind this stage and write its text [default output: PART.STAGE.svg or .gcode]
     #[arg(long, value_name = "STAGE")]
     pub until: Option<String>,
     /// Write layers, lengths, clay, time and warnings as JSON
@@ -177,4 +177,27 @@ pub struct Check {
     /// As JSON, for scripts
     #[arg(long)]
     pub json: bool,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Arguments, Command, pair};
+    use clap::{CommandFactory, Parser};
+
+    #[test]
+    fn the_command_line_is_sound() {
+        Arguments::command().debug_assert();
+    }
+
+    #[test]
+    fn settings_are_pairs_as_the_shell_leaves_them() {
+        assert_eq!(pair("fill.walls=2"), Ok(("fill.walls".to_owned(), "2".to_owned())));
+        assert_eq!(pair("machine.e_unit=\"mm3\"").expect("a pair").1, "\"mm3\"");
+        assert_eq!(pair("export.start=G28 X=1").expect("only the first counts").1, "G28 X=1");
+        assert!(pair("fill.walls").is_err() && pair("=2").is_err());
+        let words =
+            ["clayforge", "slice", "a.stl", "--set", "machine.bed=[300,300,400]", "--set", "fill.walls=2"];
+        let arguments = Arguments::try_parse_from(words).unwrap_or_else(|error| panic!("{error}"));
+        assert!(matches!(arguments.command, Command::Slice(slice) if slice.settings.set.len() == 2));
+    }
 }

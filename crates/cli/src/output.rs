@@ -19,6 +19,10 @@ fn unfinished() -> MutexGuard<'static, Vec<PathBuf>> {
 /// From now on Ctrl-C removes what is unfinished and ends the program.
 fn handle_interrupts() {
     HANDLER.call_once(|| {
+        // A file beyond `ulimit -f` shall be an error of the write, like a full disk: the signal that would kill the
+        // program is taken and forgotten.
+        #[cfg(unix)]
+        let _ = signal_hook::flag::register(signal_hook::consts::SIGXFSZ, std::sync::Arc::default());
         // Without a handler Ctrl-C still ends the program; only the temporary file would stay.
         let _ = ctrlc::set_handler(|| {
             let files = unfinished();

@@ -1,6 +1,6 @@
 //! What people read: errors, the summary, exit codes.
 
-use clayforge::{Error, Form, Notes, Sliced};
+use clayforge::{Error, Notes, Sliced};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal, Write};
@@ -159,9 +159,4 @@ pub fn io_error(path: &Path, doing: &str, error: &io::Error) -> Error {
         Some(hint) => said.hint(hint),
         None => said,
     }
-}
-
-/// How the file behind a stage ends.
-pub fn extension(form: Form) -> &'static str {
-    form.extension()
 }

@@ -69,12 +69,14 @@ pub fn run(slice: &Slice) -> Done {
     Ok(())
 }
 
-/// Where the result goes: as asked, or the part's name with the ending of what is made.
+/// Where the result goes: as asked, or the part's name with the ending of what is made. What a stage in the middle
+/// makes has the stage in its name, so that it is not taken for a file that the machine can read.
 fn target(slice: &Slice) -> Result<PathBuf, Stop> {
-    let form = slice.until.as_deref().and_then(stage).map_or(Form::Gcode, |entry| entry.make().forms().1);
-    let output = match &slice.output {
-        Some(output) => output.clone(),
-        None => slice.part.with_extension(report::extension(form)),
+    let last = slice.until.as_deref().and_then(stage).map(|entry| (entry.name, entry.make().forms().1));
+    let output = match (&slice.output, last) {
+        (Some(output), _) => output.clone(),
+        (None, None | Some((_, Form::Gcode))) => slice.part.with_extension(Form::Gcode.extension()),
+        (None, Some((name, form))) => slice.part.with_extension(format!("{name}.{}", form.extension())),
     };
     if same(&output, &slice.part) {
         return Err(Stop::Failed(

@@ -12,6 +12,16 @@
 
 use super::{Point, Ring, boolean};
 
+/// A region grown or shrunk.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Offset {
+    /// What it became.
+    pub rings: Vec<Ring>,
+    /// The length in microns of the longest loop of the offset curve that turned inside out, where the region was too
+    /// narrow: about twice the length of the part that was lost. Infinite when it is not known.
+    pub lost: f64,
+}
+
 /// A point or vector in floats of microns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct V {
@@ -24,8 +34,14 @@ impl V {
         Self { x: f64::from(point.x), y: f64::from(point.y) }
     }
 
+    /// The nearest point, halves away from zero. (`f64::round` is a call into a library on plain x86-64.)
+    pub(super) fn rounded(self) -> Point {
+        let nearest = |value: f64| (value + 0.5f64.copysign(value)) as i32;
+        Point::new(nearest(self.x), nearest(self.y))
+    }
+
     pub(super) fn plus(self, other: Self, times: f64) -> Self {
-        Self { x: other.x.mul_add(times, self.x), y: other.y.mul_add(times, self.y) }
+        Self { x: self.x + other.x * times, y: self.y + other.y * times }
     }
 
     pub(super) fn to(self, other: Self) -> Self {
@@ -105,6 +121,13 @@ struct Circle {
     arcs: Vec<usize>,
 }
 
+impl Circle {
+    fn length(&self) -> f64 {
+        let next = self.points.iter().skip(1).chain(self.points.first());
+        self.points.iter().zip(next).map(|(from, to)| from.to(*to)).map(|side| side.dot(side).sqrt()).sum()
+    }
+}
+
 /// One strand's passage through a crossing.
 struct Visit {
     side: usize,
@@ -128,20 +151,23 @@ impl Curves {
     }
 
     /// The outline of what has a positive winding number.
-    pub(super) fn covered(&self) -> Vec<Ring> {
+    pub(super) fn covered(&self) -> Offset {
         let crossings = self.crossings();
-        let circles = self.circles(&crossings);
-        let mut rings = Vec::with_capacity(circles.len());
-        for circle in circles {
+        let mut result = Offset::default();
+        if crossings.is_empty() && self.rings.len() == 1 {
+            // Nothing can have turned inside out.
+            let ring = rounded(&self.points);
+            result.rings.extend(ring.filter(|ring| ring.area2() > 0));
+            return result;
+        }
+        for circle in self.circles(&crossings) {
             match self.is_outline(&circle) {
-                Some(true) => rings.extend(rounded(&circle.points)),
-                Some(false) => {}
-                None => {
-                    return boolean::positive(&self.raw());
-                }
+                Some(true) => result.rings.extend(rounded(&circle.points)),
+                Some(false) => result.lost = result.lost.max(circle.length()),
+                None => return Offset { rings: boolean::positive(&self.raw()), lost: f64::INFINITY },
             }
         }
-        rings
+        result
     }
 
     /// The curves as they are, in whole microns.
@@ -579,7 +605,7 @@ impl Tree {
 fn rounded(circle: &[V]) -> Option<Ring> {
     let mut points: Vec<Point> = Vec::with_capacity(circle.len());
     for place in circle {
-        let point = Point::new(place.x.round() as i32, place.y.round() as i32);
+        let point = place.rounded();
         if points.last() != Some(&point) {
             points.push(point);
         }

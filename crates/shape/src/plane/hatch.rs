@@ -77,10 +77,10 @@ impl Hatch {
             for side in ring.clone() {
                 let (a, b) = (points[side], points[if side + 1 == ring.end { ring.start } else { side + 1 }]);
                 // A row is crossed when exactly one end lies above it.
-                let (below, above) = ((a.1 / spacing).ceil() as i64, (b.1 / spacing).ceil() as i64);
+                let (below, above) = (ceiling(a.1 / spacing), ceiling(b.1 / spacing));
                 let mut cross = |row: i64| {
                     let share = (row as f64 * spacing - a.1) / (b.1 - a.1);
-                    let x = share.clamp(0.0, 1.0).mul_add(b.0 - a.0, a.0);
+                    let x = a.0 + share.clamp(0.0, 1.0) * (b.0 - a.0);
                     crossings.push(Crossing { x, row, side: side as u32, before: 0, after: 0 });
                 };
                 if below < above {
@@ -159,10 +159,8 @@ impl Hatch {
 
     /// A place of the turned frame in the plane.
     fn turned_back(&self, x: f64, y: f64) -> Point {
-        Point::new(
-            (x * self.cosine - y * self.sine).round() as i32,
-            (x * self.sine + y * self.cosine).round() as i32,
-        )
+        let nearest = |value: f64| (value + 0.5f64.copysign(value)) as i32;
+        Point::new(nearest(x * self.cosine - y * self.sine), nearest(x * self.sine + y * self.cosine))
     }
 }
 
@@ -283,6 +281,12 @@ impl<'a> Book<'a> {
             })
         })
     }
+}
+
+/// The least whole number not below a value. (`f64::ceil` is a call into a library on plain x86-64.)
+fn ceiling(value: f64) -> i64 {
+    let whole = value as i64;
+    whole + i64::from(whole as f64 != value && value > 0.0)
 }
 
 fn push(points: &mut Vec<Point>, point: Point) {

@@ -4,7 +4,7 @@
 //! triangulated; the middles of the inner sides of its triangles, joined from triangle to triangle, are its middle line
 //! (chordal axis: Prasad 1997).
 
-use super::{Point, Ring, boolean, offset};
+use super::{Offset, Point, Ring, boolean, offset};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::BTreeMap;
 
@@ -17,34 +17,57 @@ pub struct MiddleLine {
     pub widths: Vec<f64>,
 }
 
-/// The middle lines of all parts of a region that are thinner than `width` microns, and one point of each piece too
-/// short for a line: shorter than it takes to lay half a bead.
+/// The middle lines of all parts of a region that are thinner than `width` microns.
 ///
 /// `core` is the region shrunk by half the width, which the caller has anyway.
-pub fn thin_parts(region: &[Ring], core: &[Ring], width: f64) -> (Vec<MiddleLine>, Vec<Point>) {
+pub fn thin_parts(region: &[Ring], core: &Offset, width: f64) -> Vec<MiddleLine> {
+    // A loop that turned inside out and is shorter than this was a corner, not a part.
+    if core.lost < width {
+        return Vec::new();
+    }
     let area = |rings: &[Ring]| rings.iter().map(|ring| ring.area2() as f64 / 2.0).sum::<f64>();
-    let grown = offset(core, width / 2.0);
-    // A blunted corner costs less than this; most layers end here.
-    let missing = area(region) - area(&grown);
-    if missing < width * width / 8.0 {
-        return (Vec::new(), Vec::new());
+    let grown = offset(&core.rings, width / 2.0);
+    if area(region) - area(&grown) < width * width / 16.0 {
+        return Vec::new();
     }
     // Slivers along curves, where shrinking and growing differ by rounding, are no parts.
     let sliver = width / 50.0;
     let rest = offset(&boolean::difference(region, &grown), -sliver);
     let pieces = offset(&rest, sliver);
-    let (mut lines, mut lost) = (Vec::new(), Vec::new());
+    let mut lines = Vec::new();
     for piece in islands(pieces) {
         if area(&piece) < width * width / 16.0 {
             continue;
         }
         let found = middle_lines(&piece, region, width);
         if found.is_empty() {
-            lost.extend(piece.first().and_then(|ring| ring.0.first()));
+            lines.extend(dab(&piece));
         }
         lines.extend(found);
     }
-    (lines, lost)
+    lines
+}
+
+/// The shortest of lines for a piece that is about as long as it is wide: half its length, and as wide as it takes to
+/// fill it.
+fn dab(piece: &[Ring]) -> Option<MiddleLine> {
+    let ring = piece.first()?;
+    let count = ring.0.len() as f64;
+    let mean = |of: fn(&Point) -> i32| ring.0.iter().map(|point| f64::from(of(point))).sum::<f64>() / count;
+    let centre = (mean(|point| point.x), mean(|point| point.y));
+    // Along the farthest corner: the longest way through.
+    let far =
+        ring.0.iter().max_by_key(|point| point.distance2(Point::new(centre.0 as i32, centre.1 as i32)))?;
+    let (x, y) = (f64::from(far.x) - centre.0, f64::from(far.y) - centre.1);
+    let length = (x * x + y * y).sqrt();
+    let area: f64 = piece.iter().map(|ring| ring.area2() as f64 / 2.0).sum();
+    if length < 1.0 {
+        return None;
+    }
+    let end = |sign: f64| {
+        Point::new((centre.0 + sign * x / 2.0).round() as i32, (centre.1 + sign * y / 2.0).round() as i32)
+    };
+    Some(MiddleLine { points: vec![end(-1.0), end(1.0)], widths: vec![area / length; 2] })
 }
 
 /// Each outside with the holes in it.

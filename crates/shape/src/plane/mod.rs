@@ -9,8 +9,9 @@ mod point;
 mod ring;
 mod simplify;
 
+pub use curves::Offset;
 pub use middle::{MiddleLine, thin_parts};
-pub use offset::{crossing, facing, offset, outside, united};
+pub use offset::{crossing, facing, offset, offset_with_loss, outside, united};
 pub use point::{Point, cross};
 pub use ring::Ring;
 pub use simplify::simplified;

@@ -3,6 +3,7 @@
 //! The raw offset of a ring crosses itself wherever the ring is too narrow for the distance; what it covers a positive
 //! number of times is the result (see [`curves`](super::curves)).
 
+use super::Offset;
 use super::curves::{Curves, V};
 use super::{Point, Ring};
 
@@ -12,6 +13,11 @@ use super::{Point, Ring};
 /// the result. Corners stay sharp; one that turns by more than a right angle is rounded outside the region's reach,
 /// never closer than the distance.
 pub fn offset(region: &[Ring], distance: f64) -> Vec<Ring> {
+    offset_with_loss(region, distance).rings
+}
+
+/// The same, with how much was lost where the region is too narrow.
+pub fn offset_with_loss(region: &[Ring], distance: f64) -> Offset {
     let mut curves = Curves::default();
     for ring in region {
         curves.push_offset(&ring.0, -distance);
@@ -26,7 +32,7 @@ pub fn united(loops: &[Ring]) -> Vec<Ring> {
     for ring in loops {
         curves.push(ring.0.iter().map(|point| V::of(*point)));
     }
-    curves.covered()
+    curves.covered().rings
 }
 
 /// Whether any two sides of the loops cross.

@@ -162,8 +162,7 @@ proptest! {
 #[test]
 fn a_strip_thinner_than_a_bead_gets_one_line_on_its_middle() {
     let strip = [ring(&[(0, 0), (20_000, 0), (20_000, 500), (0, 500)])];
-    let (lines, lost) = thin_parts(&strip, &offset(&strip, -360.0), 720.0);
-    assert!(lost.is_empty());
+    let lines = thin_parts(&strip, &offset_with_loss(&strip, -360.0), 720.0);
     assert_eq!(lines.len(), 1, "{lines:?}");
     let line = &lines[0];
     assert!(line.points.iter().all(|point| (point.y - 250).abs() < 30), "{line:?}");
@@ -185,7 +184,7 @@ fn a_ring_wall_thinner_than_a_bead_gets_one_closed_line() {
         )
     };
     let wall = [circle(15_000.0), circle(14_400.0).reversed()];
-    let (lines, _) = thin_parts(&wall, &offset(&wall, -360.0), 720.0);
+    let lines = thin_parts(&wall, &offset_with_loss(&wall, -360.0), 720.0);
     assert_eq!(lines.len(), 1);
     assert_eq!(lines[0].points.first(), lines[0].points.last());
     let radii: Vec<f64> = lines[0].points.iter().map(|point| point.distance(Point::default())).collect();
@@ -193,9 +192,18 @@ fn a_ring_wall_thinner_than_a_bead_gets_one_closed_line() {
 }
 
 #[test]
+fn a_peg_thinner_than_a_bead_gets_a_dab_that_fills_it() {
+    let peg = [square(0, 600)];
+    let lines = thin_parts(&peg, &offset_with_loss(&peg, -360.0), 720.0);
+    assert_eq!(lines.len(), 1);
+    let length = lines[0].points[0].distance(lines[0].points[1]);
+    assert!((length * lines[0].widths[0] - 360_000.0).abs() < 2_000.0, "{lines:?}");
+}
+
+#[test]
 fn a_solid_square_has_no_thin_part() {
     let region = [square(0, 20_000)];
-    assert_eq!(thin_parts(&region, &offset(&region, -360.0), 720.0), (vec![], vec![]));
+    assert_eq!(thin_parts(&region, &offset_with_loss(&region, -360.0), 720.0), vec![]);
 }
 
 #[test]
@@ -210,7 +218,7 @@ fn a_fin_on_a_block_gets_a_line() {
         (10_000, 10_000),
         (0, 10_000),
     ])];
-    let (lines, _) = thin_parts(&fin, &offset(&fin, -360.0), 720.0);
+    let lines = thin_parts(&fin, &offset_with_loss(&fin, -360.0), 720.0);
     assert_eq!(lines.len(), 1, "{lines:?}");
     assert!(lines[0].points.iter().all(|point| (point.y - 5_000).abs() < 60), "{lines:?}");
 }

@@ -32,15 +32,6 @@ impl Strand {
         Self { feature: Feature::Middle, points: line.points, flows, closed: false }
     }
 
-    /// How long it is, in microns.
-    pub fn length(&self) -> f64 {
-        let closing = match (self.points.last(), self.points.first()) {
-            (Some(last), Some(first)) if self.closed => last.distance(*first),
-            _ => 0.0,
-        };
-        closing + self.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>()
-    }
-
     /// The other way round.
     pub fn reverse(&mut self) {
         self.points.reverse();

@@ -3,7 +3,7 @@
 use crate::Fill;
 use crate::source::Source;
 use crate::strand::{Strand, share, spacing};
-use shape::plane::{facing, offset, thin_parts};
+use shape::plane::{Offset, facing, offset, offset_with_loss, thin_parts};
 use skein::{Feature, Ratio, Ring};
 
 /// What the walls leave for the infill.
@@ -28,37 +28,34 @@ pub fn of(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) 
     let mut wall = source.edges.clone();
     let mut level = 0;
     loop {
-        let room = offset(&wall, -step / 2.0);
-        let next = offset(&room, -step / 2.0);
-        let flows = relief(&wall, &room, step, source);
-        let feature = if level == 0 { Feature::Edge } else { Feature::Loop };
+        let next = offset_with_loss(&wall, -step);
+        level += 1;
+        let last = level == fill.walls || next.rings.is_empty();
+        // Where the next wall fits everywhere, nothing is too narrow for this one.
+        let narrow = next.lost >= step;
+        let room = if last || narrow { offset_with_loss(&wall, -step / 2.0) } else { Offset::default() };
+        let mut filled = 0.0;
+        if narrow && (!last || solid) {
+            filled = fill_gaps(&room.rings, &next, step, source, strands);
+        }
+        let flows =
+            if room.lost >= step { relief(&wall, step, source) } else { vec![Vec::new(); wall.len()] };
+        let feature = if level == 1 { Feature::Edge } else { Feature::Loop };
         for (ring, flows) in wall.into_iter().zip(flows) {
             strands.push(Strand { flows, ..Strand::wall(feature, ring) });
         }
-        level += 1;
-        let last = level == fill.walls;
-        let mut filled = 0.0;
-        if !last || solid {
-            filled = fill_gaps(&room, &next, step, source, strands);
+        if last {
+            let inside = if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
+            return Walls { room: room.rings, filled, inside };
         }
-        if last || next.is_empty() {
-            let inside = if overlap > 0.0 { offset(&room, overlap - step / 2.0) } else { next };
-            return Walls { room, filled, inside };
-        }
-        wall = next;
+        wall = next.rings;
     }
 }
 
 /// The flow of walls whose neighbours across are nearer than a bead: the two share the room between them.
-fn relief(wall: &[Ring], room: &[Ring], step: f64, source: &Source) -> Vec<Vec<Ratio>> {
-    let area = |rings: &[Ring]| rings.iter().map(Ring::area).sum::<f64>();
-    let missing = area(wall) - area(&offset(room, step / 2.0));
-    // Less than a tenth of a bead's square is a blunted corner.
-    if missing < (step / 1000.0).powi(2) / 10.0 {
-        return vec![Vec::new(); wall.len()];
-    }
-    let gaps = facing(wall, step);
-    gaps.into_iter()
+fn relief(wall: &[Ring], step: f64, source: &Source) -> Vec<Vec<Ratio>> {
+    facing(wall, step)
+        .into_iter()
         .map(|ring| {
             ring.into_iter()
                 // Half of the room between the middles, and the other half of the bead on its far side.
@@ -69,8 +66,8 @@ fn relief(wall: &[Ring], room: &[Ring], step: f64, source: &Source) -> Vec<Vec<R
 }
 
 /// Lays beads on the middle of what is too narrow for the next wall; gives their area in mm².
-fn fill_gaps(room: &[Ring], next: &[Ring], step: f64, source: &Source, strands: &mut Vec<Strand>) -> f64 {
-    let (lines, _) = thin_parts(room, next, step);
+fn fill_gaps(room: &[Ring], next: &Offset, step: f64, source: &Source, strands: &mut Vec<Strand>) -> f64 {
+    let lines = thin_parts(room, next, step);
     let mut filled = 0.0;
     for line in lines {
         // A gap narrower than a quarter of a bead closes by itself when the clay is pressed.

@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-use shape::plane::{MiddleLine, offset, thin_parts};
+use shape::plane::{MiddleLine, offset_with_loss, thin_parts};
 use skein::{
     Bead, Choice, Error, Facts, Feature, Layer, Line, Micron, Move, Notes, Point, Point3, Ratio, Ring,
     Settings, Side, Skein, Stage, Tag, boundary,
@@ -47,11 +47,9 @@ impl Inset {
         let z = layer.nozzle_z(facts)?.0;
         let outlines = boundary(&layer.lines);
         let half = bead.width.um() / 2.0;
-        let walls = offset(&outlines, -half);
-        let (middles, lost) = thin_parts(&outlines, &walls, bead.width.um());
-        for spot in lost {
-            notes.spot(index, spot, "a part thinner and shorter than a bead is left out");
-        }
+        let shrunk = offset_with_loss(&outlines, -half);
+        let middles = thin_parts(&outlines, &shrunk, bead.width.um());
+        let walls = shrunk.rings;
         let homes = homes(&outlines, &walls);
         let mut lines =
             Vec::with_capacity(layer.lines.len() + walls.iter().map(|wall| wall.0.len() + 6).sum::<usize>());
