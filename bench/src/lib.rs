@@ -1,1 +1,46 @@
-//! Benchmarks: import, carve, offset, fill, codec, whole slice.
+//! A part of any fineness for the benchmarks in `benches/`: the same bytes on every machine.
+
+use std::f64::consts::TAU;
+
+/// The bytes of a binary STL: a solid vase of five lobes, twisted, with a waist, 100 mm high, of about so many
+/// triangles.
+pub fn vase(triangles: usize) -> Vec<u8> {
+    // Two triangles for each step around and each step up; a circle is about twice as long as the vase is high.
+    let around = (libm::sqrt(triangles as f64) as usize).max(6);
+    let rings = (triangles / (2 * around)).max(2);
+    let ring = |up: f64| -> Vec<[f32; 3]> {
+        let radius = 26.5 + 5.0 * libm::sin(TAU * (up * 0.95 + 0.02)) + 2.0 * up;
+        let corner = |step: usize| {
+            let angle = TAU * step as f64 / around as f64;
+            let lobed = radius * (1.0 + 0.09 * libm::cos(5.0 * angle));
+            let twisted = angle + up * TAU / 6.0;
+            [lobed * libm::cos(twisted), lobed * libm::sin(twisted), 100.0 * up].map(|value| value as f32)
+        };
+        (0..around).map(corner).collect()
+    };
+    let mut facets: Vec<[[f32; 3]; 3]> = Vec::with_capacity(2 * around * rings);
+    let mut below = vec![[0.0; 3]; around];
+    for index in 0..=rings {
+        let above = match index {
+            _ if index == rings => vec![[0.0, 0.0, 100.0]; around],
+            _ => ring(index as f64 / (rings - 1) as f64),
+        };
+        for step in 0..around {
+            let next = (step + 1) % around;
+            let [a, b, c, d] = [below[step], below[next], above[next], above[step]];
+            // The two ends are fans: one triangle of each pair has no area there.
+            facets.extend((index > 0).then_some([a, b, c]));
+            facets.extend((index < rings).then_some([a, c, d]));
+        }
+        below = above;
+    }
+    let mut bytes = vec![b' '; 80];
+    bytes.extend_from_slice(&(facets.len() as u32).to_le_bytes());
+    for facet in facets {
+        // Nobody believes the normals of a file.
+        bytes.extend_from_slice(&[0; 12]);
+        bytes.extend(facet.iter().flatten().flat_map(|value| value.to_le_bytes()));
+        bytes.extend_from_slice(&[0; 2]);
+    }
+    bytes
+}

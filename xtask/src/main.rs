@@ -1,17 +1,25 @@
-//! Chores.
+//! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use std::process::ExitCode;
 
 mod examples;
+mod new_stage;
+mod pictures;
+
+const USAGE: &str = "\
+usage: cargo xtask examples [--dir DIR]                    the parts in examples/
+       cargo xtask examples --vase TRIANGLES --out FILE    one vase of any fineness
+       cargo xtask pictures                                docs/vase.svg and the pictures of the stage pages
+       cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let result = match args.split_first() {
         Some((name, args)) if name == "examples" => examples::run(args),
-        _ => {
-            Err("usage: cargo xtask examples [--dir DIR] | examples --vase TRIANGLES --out FILE".to_string())
-        }
+        Some((name, args)) if name == "pictures" => pictures::run(args),
+        Some((name, args)) if name == "new-stage" => new_stage::run(args),
+        _ => Err(USAGE.to_string()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

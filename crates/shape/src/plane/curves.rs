@@ -79,6 +79,8 @@ struct Tree {
     /// Where each level's boxes begin in `boxes`, the leaves' first.
     levels: Vec<usize>,
     boxes: Vec<Box2>,
+    /// Whether the run in each box goes forwards all along its chord, so that it cannot cross itself.
+    forwards: Vec<bool>,
 }
 
 #[derive(Clone, Copy)]
@@ -462,7 +464,23 @@ impl Tree {
             from += length;
             length = length.div_ceil(2);
         }
-        Self { start, end, levels, boxes }
+        let mut tree = Self { start, end, levels, boxes, forwards: Vec::new() };
+        for level in 0..tree.levels.len() {
+            for index in 0..leaves.div_ceil(1 << level) {
+                tree.forwards.push(tree.runs_forwards(points, level, index));
+            }
+        }
+        tree
+    }
+
+    fn runs_forwards(&self, points: &[V], level: usize, index: usize) -> bool {
+        // A run whose first half turns back does so too.
+        if level > 0 && !self.forwards[self.levels[level - 1] + 2 * index] {
+            return false;
+        }
+        let mut sides = self.sides(level, index);
+        let chord = points[sides.start].to(points[self.next(sides.end - 1)]);
+        sides.all(|side| points[side].to(points[self.next(side)]).dot(chord) > 0.0)
     }
 
     /// The point after a point of the ring.
@@ -490,6 +508,9 @@ impl Tree {
     }
 
     fn with_itself(&self, curves: &Curves, level: usize, index: usize, found: &mut Vec<Crossing>) {
+        if self.forwards[self.levels[level] + index] {
+            return;
+        }
         if level == 0 {
             let sides = self.sides(0, index);
             for side in sides.clone() {
@@ -499,11 +520,10 @@ impl Tree {
             }
             return;
         }
-        let children: Vec<(usize, usize)> = self.children(level, index).collect();
-        for child in &children {
-            self.with_itself(curves, child.0, child.1, found);
-        }
-        if let [one, other] = children[..] {
+        let (one, other) = ((level - 1, 2 * index), (level - 1, 2 * index + 1));
+        self.with_itself(curves, one.0, one.1, found);
+        if self.children(level, index).count() == 2 {
+            self.with_itself(curves, other.0, other.1, found);
             self.with_other(curves, self, one, other, found);
         }
     }

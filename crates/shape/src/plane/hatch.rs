@@ -13,7 +13,9 @@ pub struct Hatch {
     spacing: f64,
     /// The number of the lowest row; row `k` lies at height `k` × spacing in the turned frame.
     first: i64,
-    rows: Vec<Vec<Span>>,
+    /// Where each row's spans begin; one more than there are rows.
+    starts: Vec<u32>,
+    spans: Vec<Span>,
     crossings: Vec<Crossing>,
     /// The turned points of all rings, one ring after the other.
     points: Vec<(f64, f64)>,
@@ -71,23 +73,14 @@ impl Hatch {
             }));
             rings.push(start..points.len());
         }
-        let mut crossings: Vec<Crossing> = Vec::new();
+        let mut crossings: Vec<Crossing> = Vec::with_capacity(points.len());
         for ring in &rings {
             let from = crossings.len() as u32;
             for side in ring.clone() {
                 let (a, b) = (points[side], points[if side + 1 == ring.end { ring.start } else { side + 1 }]);
-                // A row is crossed when exactly one end lies above it.
-                let (below, above) = (ceiling(a.1 / spacing), ceiling(b.1 / spacing));
-                let mut cross = |row: i64| {
-                    let share = (row as f64 * spacing - a.1) / (b.1 - a.1);
-                    let x = a.0 + share.clamp(0.0, 1.0) * (b.0 - a.0);
+                each_row(a, b, spacing, |row, x| {
                     crossings.push(Crossing { x, row, side: side as u32, before: 0, after: 0 });
-                };
-                if below < above {
-                    (below..above).for_each(&mut cross);
-                } else {
-                    (above..below).rev().for_each(&mut cross);
-                }
+                });
             }
             let to = crossings.len() as u32;
             for index in from..to {
@@ -95,23 +88,19 @@ impl Hatch {
                 crossings[index as usize].after = if index + 1 == to { from } else { index + 1 };
             }
         }
-        let first = crossings.iter().map(|crossing| crossing.row).min().unwrap_or(0);
-        let last = crossings.iter().map(|crossing| crossing.row).max().unwrap_or(-1);
-        let mut ends: Vec<Vec<u32>> = vec![Vec::new(); (last - first + 1).max(0) as usize];
-        for (index, crossing) in crossings.iter().enumerate() {
-            ends[(crossing.row - first) as usize].push(index as u32);
+        let (first, starts, mut order) = by_row(crossings.iter().map(|crossing| crossing.row));
+        let mut spans = Vec::with_capacity(crossings.len() / 2);
+        for row in starts.windows(2) {
+            let row = &mut order[row[0] as usize..row[1] as usize];
+            row.sort_unstable_by(|one, other| {
+                crossings[*one as usize].x.total_cmp(&crossings[*other as usize].x).then(one.cmp(other))
+            });
+            let end = |index: u32| End { x: crossings[index as usize].x, crossing: Some(index) };
+            spans.extend(row.chunks_exact(2).map(|pair| Span { left: end(pair[0]), right: end(pair[1]) }));
         }
-        let rows = ends
-            .into_iter()
-            .map(|mut row| {
-                row.sort_unstable_by(|one, other| {
-                    crossings[*one as usize].x.total_cmp(&crossings[*other as usize].x).then(one.cmp(other))
-                });
-                let end = |index: u32| End { x: crossings[index as usize].x, crossing: Some(index) };
-                row.chunks_exact(2).map(|pair| Span { left: end(pair[0]), right: end(pair[1]) }).collect()
-            })
-            .collect();
-        Self { cosine, sine, spacing, first, rows, crossings, points, rings }
+        // Rows have whole pairs, so spans begin at half of where their crossings do.
+        let starts = starts.into_iter().map(|start| start / 2).collect();
+        Self { cosine, sine, spacing, first, starts, spans, crossings, points, rings }
     }
 
     /// The number of the lowest row.
@@ -120,16 +109,8 @@ impl Hatch {
     }
 
     /// The spans of every row, from the lowest up.
-    pub fn rows(&self) -> &[Vec<Span>] {
-        &self.rows
-    }
-
-    /// The spans of the row with a number, none where the region does not reach.
-    pub fn row(&self, number: i64) -> &[Span] {
-        usize::try_from(number - self.first)
-            .ok()
-            .and_then(|index| self.rows.get(index))
-            .map_or(&[], Vec::as_slice)
+    pub fn rows(&self) -> impl Iterator<Item = &[Span]> {
+        self.starts.windows(2).map(|row| &self.spans[row[0] as usize..row[1] as usize])
     }
 
     /// The height of a row in the turned frame.
@@ -162,6 +143,90 @@ impl Hatch {
         let nearest = |value: f64| (value + 0.5f64.copysign(value)) as i32;
         Point::new(nearest(x * self.cosine - y * self.sine), nearest(x * self.sine + y * self.cosine))
     }
+}
+
+/// The intervals in which rows lie inside a region: a hatch without threads, where only the places matter.
+pub struct Intervals {
+    first: i64,
+    starts: Vec<u32>,
+    ends: Vec<f64>,
+}
+
+impl Intervals {
+    /// As [`Hatch::new`].
+    pub fn new(region: &[Ring], (cosine, sine): (f64, f64), spacing: f64) -> Self {
+        let turned = |point: Point| {
+            let (x, y) = (f64::from(point.x), f64::from(point.y));
+            (x * cosine + y * sine, y * cosine - x * sine)
+        };
+        let mut crossings: Vec<(i64, f64)> = Vec::with_capacity(region.iter().map(|ring| ring.0.len()).sum());
+        for ring in region {
+            let Some(last) = ring.0.last() else { continue };
+            let mut a = turned(*last);
+            for point in &ring.0 {
+                let b = turned(*point);
+                each_row(a, b, spacing, |row, x| crossings.push((row, x)));
+                a = b;
+            }
+        }
+        let (first, starts, order) = by_row(crossings.iter().map(|crossing| crossing.0));
+        let mut ends: Vec<f64> = order.into_iter().map(|index| crossings[index as usize].1).collect();
+        for row in starts.windows(2) {
+            ends[row[0] as usize..row[1] as usize].sort_unstable_by(f64::total_cmp);
+        }
+        Self { first, starts, ends }
+    }
+
+    /// The intervals of the row with a number, none where the region does not reach.
+    pub fn row(&self, number: i64) -> impl Iterator<Item = (f64, f64)> + Clone {
+        let row =
+            usize::try_from(number - self.first).ok().and_then(|index| self.starts.get(index..index + 2));
+        let ends = row.map_or(&[][..], |row| &self.ends[row[0] as usize..row[1] as usize]);
+        ends.chunks_exact(2).map(|pair| (pair[0], pair[1]))
+    }
+}
+
+/// Every row that a side crosses, with where: a row is crossed when exactly one end lies above it.
+#[inline]
+fn each_row(a: (f64, f64), b: (f64, f64), spacing: f64, mut cross: impl FnMut(i64, f64)) {
+    let (below, above) = (ceiling(a.1 / spacing), ceiling(b.1 / spacing));
+    if below == above {
+        return;
+    }
+    let slope = (b.0 - a.0) / (b.1 - a.1);
+    let (low, high) = (a.0.min(b.0), a.0.max(b.0));
+    let mut at = |row: i64| cross(row, (a.0 + (row as f64 * spacing - a.1) * slope).clamp(low, high));
+    if below < above {
+        (below..above).for_each(&mut at);
+    } else {
+        (above..below).rev().for_each(&mut at);
+    }
+}
+
+/// Sorts indices by row: the lowest row, where each row's indices begin, and the indices.
+fn by_row(rows: impl Iterator<Item = i64> + Clone) -> (i64, Vec<u32>, Vec<u32>) {
+    let Some((first, last)) = rows.clone().fold(None, |range: Option<(i64, i64)>, row| {
+        Some(range.map_or((row, row), |(low, high)| (low.min(row), high.max(row))))
+    }) else {
+        return (0, vec![0], Vec::new());
+    };
+    let mut starts = vec![0u32; (last - first + 2) as usize];
+    let mut count = 0;
+    for row in rows.clone() {
+        starts[(row - first + 1) as usize] += 1;
+        count += 1;
+    }
+    for index in 1..starts.len() {
+        starts[index] += starts[index - 1];
+    }
+    let mut next = starts.clone();
+    let mut order = vec![0u32; count];
+    for (index, row) in rows.enumerate() {
+        let place = &mut next[(row - first) as usize];
+        order[*place as usize] = index as u32;
+        *place += 1;
+    }
+    (first, starts, order)
 }
 
 /// Which spans have been used, and which span ends at a crossing.

@@ -159,7 +159,8 @@ impl Carve {
     }
 
     fn find_bridges(&self, slices: &mut Slices, mesh: &TriangleMesh, planes: &[i32]) {
-        let candidates = planes_over_level_faces(mesh, planes, bridge::REACH);
+        let reach = bridge::REACH * self.bead_width.um();
+        let candidates = planes_over_level_faces(mesh, planes, reach / self.layer_height.um());
         let directions: Vec<Option<Direction>> = (0..slices.layers.len())
             .into_par_iter()
             .map(|index| {
@@ -167,7 +168,7 @@ impl Carve {
                 if !candidates[index] || below.loops.is_empty() {
                     return None;
                 }
-                bridge::direction(&slices.layers[index].loops, &below.loops, self.layer_height.um())
+                bridge::direction(&slices.layers[index].loops, &below.loops, self.bead_width.um())
             })
             .collect();
         for (layer, rotation) in slices.layers.iter_mut().zip(directions) {

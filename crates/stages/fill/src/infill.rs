@@ -4,7 +4,7 @@ use crate::Fill;
 use crate::source::Source;
 use crate::strand::{Strand, spacing};
 use crate::walls::Walls;
-use shape::plane::hatch::{End, Hatch, Span};
+use shape::plane::hatch::{End, Hatch, Intervals, Span};
 use skein::{Direction, Feature, Notes, Point, Ratio, Ring};
 
 /// The infill of one layer.
@@ -52,7 +52,6 @@ impl Job<'_> {
             let hatch = Hatch::new(&self.walls.inside, turned, apart);
             let rows: Vec<Vec<Span>> = hatch
                 .rows()
-                .iter()
                 .enumerate()
                 .map(|(index, row)| {
                     let height = hatch.height(hatch.first() + index as i64);
@@ -67,7 +66,8 @@ impl Job<'_> {
 
     /// Fills everything, with as much clay as there is room.
     fn solid(&self, layer: usize, hatch: &Hatch, step: f64, strands: &mut Vec<Strand>, notes: &mut Notes) {
-        let threads = hatch.threads(hatch.rows(), REACH * step);
+        let rows: Vec<Vec<Span>> = hatch.rows().map(<[Span]>::to_vec).collect();
+        let threads = hatch.threads(&rows, REACH * step);
         let length: f64 =
             threads.iter().flat_map(|points| points.windows(2)).map(|pair| pair[0].distance(pair[1])).sum();
         if length == 0.0 {
@@ -110,11 +110,10 @@ struct Surface {
 impl Surface {
     /// What lies in the hatch and not inside the walls of all surrounding layers.
     fn find(hatch: &Hatch, surroundings: &[&Source], turned: (f64, f64), step: f64) -> Self {
-        let around: Vec<Hatch> =
-            surroundings.iter().map(|source| Hatch::new(&source.edges, turned, step)).collect();
+        let around: Vec<Intervals> =
+            surroundings.iter().map(|source| Intervals::new(&source.edges, turned, step)).collect();
         let seen: Vec<Vec<(f64, f64)>> = hatch
             .rows()
-            .iter()
             .enumerate()
             .map(|(index, row)| {
                 let number = hatch.first() + index as i64;
@@ -134,13 +133,15 @@ impl Surface {
         }
         let kept = without_specks(seen, 4.0 * step * step, step);
         // A surface is laid a bead farther than it is seen, so that it rests on what is beside it.
-        let rows = (0..kept.len())
-            .map(|index| {
+        let rows = hatch
+            .rows()
+            .enumerate()
+            .map(|(index, row)| {
                 let near = index.saturating_sub(1)..(index + 2).min(kept.len());
                 let mut wide: Vec<(f64, f64)> =
                     kept[near].iter().flatten().map(|(left, right)| (left - step, right + step)).collect();
                 wide.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
-                inside(&hatch.rows()[index], &wide, 2.0 * step)
+                inside(row, &wide, 2.0 * step)
             })
             .collect();
         Self { first: hatch.first(), rows }
@@ -155,11 +156,11 @@ impl Surface {
 }
 
 /// What two sorted lists of intervals have in common.
-fn common(one: &[(f64, f64)], row: &[Span]) -> Vec<(f64, f64)> {
-    let mut both = Vec::new();
+fn common(one: &[(f64, f64)], other: impl Iterator<Item = (f64, f64)> + Clone) -> Vec<(f64, f64)> {
+    let mut both = Vec::with_capacity(one.len());
     for &(left, right) in one {
-        for span in row {
-            let (from, to) = (left.max(span.left.x), right.min(span.right.x));
+        for (start, end) in other.clone() {
+            let (from, to) = (left.max(start), right.min(end));
             if from < to {
                 both.push((from, to));
             }

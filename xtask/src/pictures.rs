@@ -1,0 +1,135 @@
+//! The pictures of the pages, drawn by the program itself from the cases, so that they cannot go stale.
+
+use clayforge::{
+    Document, Drawing, Error, Event, Notes, Profile, STAGES, Source, craft, draw, draw_text, only_built_in,
+    slice,
+};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+
+/// The vase of the README, and for each stage whose page shows `NAME.svg` the first of its cases.
+pub fn run(args: &[String]) -> Result<(), String> {
+    if let Some(word) = args.first() {
+        return Err(format!("`{word}` is not known; `pictures` has no options"));
+    }
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    put(&root.join("docs/vase.svg"), &vase(&root)?)?;
+    for entry in STAGES.iter().filter(|entry| entry.page.contains(&format!("({}.svg)", entry.name))) {
+        let picture = case(entry.name, entry.page).map_err(|error| format!("{}: {error}", entry.name))?;
+        put(&root.join(format!("crates/stages/{0}/{0}.svg", entry.name)), &picture)?;
+    }
+    Ok(())
+}
+
+fn put(path: &Path, text: &str) -> Result<(), String> {
+    println!("{} ({} kB)", path.display(), text.len().div_ceil(1000));
+    fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// One layer of the example vase, and a dozen of them from the bottom to the top.
+fn vase(root: &Path) -> Result<String, String> {
+    const STAGE: &str = "fill";
+    let part = root.join("examples/vase.stl");
+    let part = fs::read(&part).map_err(|error| format!("{}: {error}", part.display()))?;
+    let profile = Profile::built_in("clay").ok_or("there is no profile `clay`")?.map_err(say)?;
+    let mut drawings = None;
+    let mut watch = |event: Event<'_>| {
+        if let Event::Done { name: STAGE, document, .. } = event {
+            drawings = Some((one_layer(document, 14)?, draw(document, Drawing { layer: None, most: 12 })?));
+        }
+        Ok(())
+    };
+    slice(part, &profile, Some(STAGE), &mut watch, &mut |_| Ok(())).map_err(say)?;
+    let (one, sheet) = drawings.ok_or("the chain has no fill")?;
+    side_by_side(&[(one, ""), (sheet, "")])
+}
+
+fn one_layer(document: &Document, layer: usize) -> Result<String, Error> {
+    draw(document, Drawing { layer: Some(layer), ..Drawing::default() })
+}
+
+/// The first case of a page, before and after.
+fn case(stage: &str, page: &str) -> Result<String, String> {
+    let (start, form) = ["skein", "svg"]
+        .iter()
+        .filter_map(|form| page.find(&format!("```{form} before\n")).map(|start| (start, *form)))
+        .min()
+        .ok_or("the page has no case")?;
+    let section = page[..start].rfind("\n## ").unwrap_or(0);
+    let before = block(&page[start..]);
+    let before = if form == "skein" { format!("{HEADER}{before}{FOOTER}") } else { before.to_owned() };
+    let settings = page[section..start].find("```toml\n").map_or("", |toml| block(&page[section + toml..]));
+    let settings = Source { name: format!("the page of {stage}"), text: settings.to_owned() };
+    let profile = Profile::read(settings, &only_built_in).map_err(say)?;
+    let mut after = Vec::new();
+    let mut sink = |piece: &[u8]| {
+        after.extend_from_slice(piece);
+        Ok(())
+    };
+    craft(stage, before.as_bytes(), &profile, &mut Notes::default(), &mut sink).map_err(say)?;
+    let drawn = |text: &[u8]| draw_text(text, Drawing::default()).map_err(say);
+    side_by_side(&[(drawn(before.as_bytes())?, "before"), (drawn(&after)?, "after")])
+}
+
+/// What stands between a fence and the next.
+fn block(text: &str) -> &str {
+    let body = text.split_once('\n').map_or("", |(_, body)| body);
+    body.find("```").map_or(body, |end| &body[..end])
+}
+
+/// The header that the cases of the pages leave out.
+const HEADER: &str = "\
+(<extruderInitialization>)
+(<decimalPlacesCarried> 3 </decimalPlacesCarried>)
+(<layerHeight> 1.5 </layerHeight>)
+(<firstLayerHeight> 1.5 </firstLayerHeight>)
+(<nozzleDiameter> 3.0 </nozzleDiameter>)
+(<eUnit> mm3 </eUnit>)
+(<beadSection> rectangle </beadSection>)
+(<infillWidth> 3.0 </infillWidth>)
+(<edgeWidth> 3.0 </edgeWidth>)
+(</extruderInitialization>)
+(<crafting>)
+";
+const FOOTER: &str = "(</crafting>)\n";
+
+/// Drawings of equal height in a row, each with a word above it.
+fn side_by_side(drawings: &[(String, &str)]) -> Result<String, String> {
+    const HEIGHT: f64 = 480.0;
+    const GAP: f64 = 16.0;
+    let words = if drawings.iter().all(|(_, word)| word.is_empty()) { 0.0 } else { 28.0 };
+    let mut x = GAP;
+    let mut inside = String::new();
+    for (svg, word) in drawings {
+        let (head, body) = svg.split_once('\n').ok_or("a drawing has no body")?;
+        let window = head.split_once("viewBox=\"").and_then(|(_, rest)| rest.split_once('"'));
+        let (window, _) = window.ok_or("a drawing has no window")?;
+        let sizes: Vec<f64> = window.split(' ').filter_map(|number| number.parse().ok()).collect();
+        let [_, _, wide, high] = sizes[..] else { return Err("a drawing has no size".to_owned()) };
+        let width = (HEIGHT * wide / high).round();
+        // Writing to a string cannot fail.
+        let _ = write!(
+            inside,
+            "<svg x=\"{x}\" y=\"{}\" width=\"{width}\" height=\"{HEIGHT}\" viewBox=\"{window}\">\n{body}",
+            GAP + words
+        );
+        if !word.is_empty() {
+            let _ = writeln!(
+                inside,
+                "<text x=\"{x}\" y=\"{}\" font-family=\"sans-serif\" font-size=\"18\">{word}</text>",
+                GAP + 14.0
+            );
+        }
+        x += width + GAP;
+    }
+    let high = HEIGHT + 2.0 * GAP + words;
+    Ok(format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {x} {high}\" width=\"{x}\" height=\"{high}\">\n\
+         <rect width=\"100%\" height=\"100%\" fill=\"#fffdf8\"/>\n{inside}</svg>\n"
+    ))
+}
+
+fn say(error: Error) -> String {
+    error.to_string()
+}
