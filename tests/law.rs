@@ -2,13 +2,14 @@
 //!
 //! The numbers F1 to F12 are those of the format examples of the specification.
 
+use clayforge::{Profile, Source, only_built_in};
 use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
 use shape::{Bounds, Point, Point3, Ring};
 use skein::{
-    Choice, EUnit, Facts, Line, Mark, Move, Reader, RotatedLoopLayer, Section, Side, Signature, Skein, Slices, Span,
-    Tag, spans,
+    Choice, EUnit, Facts, Field, Kind, Line, Mark, Move, Reader, RotatedLoopLayer, Section, Settings, Side,
+    Signature, Skein, Slices, Span, Tag, spans,
 };
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Display};
@@ -45,7 +46,8 @@ fn feed() -> impl Strategy<Value = Feed> {
 }
 
 fn extrusion() -> impl Strategy<Value = Extrusion> {
-    let amount = prop_oneof![-1_000_000..1_000_000i64, i64::MIN + 1..=i64::MAX, Just(i64::MAX), Just(i64::MIN + 1)];
+    let amount =
+        prop_oneof![-1_000_000..1_000_000i64, i64::MIN + 1..=i64::MAX, Just(i64::MAX), Just(i64::MIN + 1)];
     amount.prop_map(|amount| Extrusion::new(amount).expect("only the least has no room"))
 }
 
@@ -75,9 +77,36 @@ fn tag() -> impl Strategy<Value = Tag> {
 fn text() -> impl Strategy<Value = String> {
     let piece = prop_oneof![
         prop::sample::select(vec![
-            "G1", "G1 ", "X1", "Y-2.5", "Z.5", "F60", "E1", "M101", "M103", "M108 S", "(<", "</", ">)", ">", ")",
-            "layer", "edge", "thickness", "boundaryPoint", "infill", "setting", " outer ", " 1.5 ", ";", "(note)", " ",
-            "\t", "\u{a0}", "\u{2028}", "\u{b}",
+            "G1",
+            "G1 ",
+            "X1",
+            "Y-2.5",
+            "Z.5",
+            "F60",
+            "E1",
+            "M101",
+            "M103",
+            "M108 S",
+            "(<",
+            "</",
+            ">)",
+            ">",
+            ")",
+            "layer",
+            "edge",
+            "thickness",
+            "boundaryPoint",
+            "infill",
+            "setting",
+            " outer ",
+            " 1.5 ",
+            ";",
+            "(note)",
+            " ",
+            "\t",
+            "\u{a0}",
+            "\u{2028}",
+            "\u{b}",
         ])
         .prop_map(str::to_owned),
         "[ -~äß…]{0,8}",
@@ -116,7 +145,8 @@ fn skein() -> impl Strategy<Value = Skein> {
     (vec(line(), 0..20), vec(line(), 0..80)).prop_map(|(head, body)| {
         let end = Line::Close(Tag::ExtruderInitialization);
         // The header ends before the first layer.
-        let head = head.into_iter().filter(|line| !matches!(line, Line::Layer(_) | Line::Close(Tag::Crafting)));
+        let head =
+            head.into_iter().filter(|line| !matches!(line, Line::Layer(_) | Line::Close(Tag::Crafting)));
         Skein::from_lines(head.chain([end]).chain(body))
     })
 }
@@ -166,11 +196,10 @@ fn slices() -> impl Strategy<Value = Slices> {
     let layer = (coordinate(), option::of(length()), option::of(direction()), vec(ring(), 0..4)).prop_map(
         |(z, thickness, rotation, loops)| RotatedLoopLayer { z: Micron(z), thickness, rotation, loops },
     );
-    let done = prop::collection::btree_map("[a-z]{1,8}", vec(("[a-z_]{1,8}", "[ -~äß…]{0,12}"), 0..4), 0..3).prop_map(
-        |done: BTreeMap<String, Vec<(String, String)>>| {
+    let done = prop::collection::btree_map("[a-z]{1,8}", vec(("[a-z_]{1,8}", "[ -~äß…]{0,12}"), 0..4), 0..3)
+        .prop_map(|done: BTreeMap<String, Vec<(String, String)>>| {
             done.into_iter().map(|(stage, settings)| Signature { stage, settings }).collect::<Vec<_>>()
-        },
-    );
+        });
     (facts(), place(), place(), done, vec(layer, 0..6)).prop_map(|(facts, min, max, done, layers)| Slices {
         facts,
         bounds: Bounds { min, max },
@@ -326,6 +355,61 @@ where
     prop_assert!(decimals.len() == 1 || !decimals.ends_with('0'), "{}", text);
     prop_assert!(text != "-0.0");
     Ok(())
+}
+
+// Profiles.
+
+/// Every key that holds numbers, with its bounds.
+fn numbers() -> Vec<(String, Field)> {
+    let stages = clayforge::STAGES.iter().map(|entry| (entry.name, entry.fields()));
+    let sections = stages.chain([("machine", <skein::Machine as Settings>::fields())]);
+    let keys = sections.flat_map(|(section, fields)| {
+        fields.into_iter().map(move |field| (format!("{section}.{}", field.name), field))
+    });
+    keys.filter(|(_, field)| matches!(field.kind, Kind::Number | Kind::Count)).collect()
+}
+
+#[test]
+fn nonsense_is_refused_by_every_setting_with_its_name() {
+    let mut profile = Profile::default();
+    for (key, field) in numbers() {
+        let beyond = [field.min.map(|min| min - 1.0), field.max.map(|max| max + 1.0)];
+        let beyond = beyond.into_iter().flatten().map(|number| number.to_string());
+        for value in ["nan", "inf", "-inf", "1e308", "\"two\"", "true", "[1]", "{ a = 1 }", ""]
+            .map(str::to_owned)
+            .into_iter()
+            .chain(beyond)
+        {
+            let error = profile.set(&key, &value).expect_err(&format!("{key} = {value}"));
+            assert!(
+                error.to_string().contains(&key) && error.hint.is_some(),
+                "{key} = {value}: {error} {:?}",
+                error.hint
+            );
+        }
+        let mistyped = format!("{key}x");
+        let error = profile.set(&mistyped, "1").expect_err(&mistyped);
+        assert!(
+            error.hint.as_deref().is_some_and(|hint| hint.contains(&key)),
+            "{mistyped}: {:?}",
+            error.hint
+        );
+    }
+    assert_eq!(profile, Profile::default());
+}
+
+#[test]
+fn a_profile_that_is_shown_reads_back_with_every_setting_at_its_bounds() {
+    for (key, field) in numbers() {
+        for bound in [field.min, field.max].into_iter().flatten() {
+            let mut profile = Profile::default();
+            profile.set(&key, &bound.to_string()).unwrap_or_else(|error| panic!("{error}"));
+            let shown = Source { name: "shown".to_owned(), text: profile.show() };
+            let read = Profile::read(shown, &only_built_in)
+                .unwrap_or_else(|error| panic!("{key} = {bound}: {error}"));
+            assert_eq!(read, profile, "{key} = {bound}");
+        }
+    }
 }
 
 // The format examples.

@@ -24,7 +24,8 @@ pub fn text_of(path: &Path) -> String {
 /// The folders in a folder, sorted.
 pub fn folders(path: &Path) -> Vec<PathBuf> {
     let entries = fs::read_dir(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let mut found: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()).collect();
+    let mut found: Vec<PathBuf> =
+        entries.flatten().map(|entry| entry.path()).filter(|path| path.is_dir()).collect();
     found.sort();
     found
 }
@@ -39,7 +40,11 @@ pub fn difference(expected: &str, found: &str) -> String {
     /// The table of common lines grows with the product of both; what is beyond is compared line by line.
     const MOST: usize = 2000;
     let (old, new): (Vec<&str>, Vec<&str>) = (expected.lines().collect(), found.lines().collect());
-    let steps = if old.len() <= MOST && new.len() <= MOST { aligned(&old, &new) } else { first_different(&old, &new) };
+    let steps = if old.len() <= MOST && new.len() <= MOST {
+        aligned(&old, &new)
+    } else {
+        first_different(&old, &new)
+    };
     let near = |index: usize| {
         steps[index.saturating_sub(2)..(index + 3).min(steps.len())].iter().any(|(mark, _)| *mark != ' ')
     };
@@ -75,7 +80,9 @@ fn aligned<'a>(old: &[&'a str], new: &[&'a str]) -> Vec<(char, &'a str)> {
         if i < old.len() && j < new.len() && old[i] == new[j] {
             steps.push((' ', old[i]));
             (i, j) = (i + 1, j + 1);
-        } else if j == new.len() || (i < old.len() && common[(i + 1) * width + j] >= common[i * width + j + 1]) {
+        } else if j == new.len()
+            || (i < old.len() && common[(i + 1) * width + j] >= common[i * width + j + 1])
+        {
             steps.push(('-', old[i]));
             i += 1;
         } else {
@@ -171,7 +178,12 @@ pub fn sliced(part: &str, stl: &[u8], profile: &Profile) -> Run {
 }
 
 /// Runs one stage from text to text.
-pub fn craft(stage: &str, text: &[u8], profile: &Profile, notes: &mut Notes) -> Result<Vec<u8>, clayforge::Error> {
+pub fn craft(
+    stage: &str,
+    text: &[u8],
+    profile: &Profile,
+    notes: &mut Notes,
+) -> Result<Vec<u8>, clayforge::Error> {
     let mut out = Vec::new();
     clayforge::craft(stage, text, profile, notes, &mut |piece| {
         out.extend_from_slice(piece);
@@ -282,8 +294,18 @@ pub fn meshes() -> Vec<(&'static str, Triangles)> {
 /// A table of two legs: profile in x and z, 10 deep.
 pub fn bridge() -> Triangles {
     let (near, far) = (0.0, 10.0);
-    let outline =
-        [[0.0, 0.0], [5.0, 0.0], [5.0, 4.0], [25.0, 4.0], [25.0, 0.0], [30.0, 0.0], [30.0, 6.0], [25.0, 6.0], [5.0, 6.0], [0.0, 6.0]];
+    let outline = [
+        [0.0, 0.0],
+        [5.0, 0.0],
+        [5.0, 4.0],
+        [25.0, 4.0],
+        [25.0, 0.0],
+        [30.0, 0.0],
+        [30.0, 6.0],
+        [25.0, 6.0],
+        [5.0, 6.0],
+        [0.0, 6.0],
+    ];
     let faces = [[0, 1, 2], [0, 2, 8], [0, 8, 9], [2, 3, 7], [2, 7, 8], [3, 4, 5], [3, 5, 6], [3, 6, 7]];
     let at = |index: usize, y: f64| [outline[index][0], y, outline[index][1]];
     let mut triangles = Vec::new();

@@ -1,11 +1,18 @@
 //! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 mod examples;
 mod new_stage;
 mod pictures;
+
+/// The folder of the workspace.
+fn root() -> PathBuf {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR"));
+    here.parent().unwrap_or(here).to_owned()
+}
 
 const USAGE: &str = "\
 usage: cargo xtask examples [--dir DIR]                    the parts in examples/

@@ -17,7 +17,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
     if clayforge::stage(other).is_none() {
         return Err(format!("there is no stage `{other}`"));
     }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = crate::root();
     let folder = root.join("crates/stages").join(name);
     if folder.exists() {
         return Err(format!("{} exists already", folder.display()));
@@ -25,7 +25,11 @@ pub fn run(args: &[String]) -> Result<(), String> {
     // What registers a stage, each behind the line of the other: file, how that line begins, the new line.
     let registrations = [
         ("Cargo.toml", format!("    \"crates/stages/{other}\""), format!("    \"crates/stages/{name}\",")),
-        ("Cargo.toml", format!("{other} = {{ path"), format!("{name} = {{ path = \"crates/stages/{name}\" }}")),
+        (
+            "Cargo.toml",
+            format!("{other} = {{ path"),
+            format!("{name} = {{ path = \"crates/stages/{name}\" }}"),
+        ),
         ("crates/clayforge/Cargo.toml", format!("{other}.workspace"), format!("{name}.workspace = true")),
         (
             "crates/clayforge/src/stages.rs",
@@ -39,7 +43,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
     for (file, text) in [
         ("Cargo.toml", CARGO.replace("NAME", name)),
         ("README.md", README.replace("NAME", name)),
-        ("src/lib.rs", LIB.replace("NAME", name).replace("TYPE", &type_of(name))),
+        ("src/lib.rs", LIB.replace("WORD", name).replace("TYPE", &type_of(name))),
     ] {
         let path = folder.join(file);
         let write = || {
@@ -49,7 +53,9 @@ pub fn run(args: &[String]) -> Result<(), String> {
         write().map_err(|error| format!("{}: {error}", path.display()))?;
         println!("{}", path.display());
     }
-    println!("next: the page and the work; it is `off` in crates/clayforge/src/stages.rs until a profile wants it");
+    println!(
+        "next: the page and the work; it is `off` in crates/clayforge/src/stages.rs until a profile wants it"
+    );
     println!("next: its place among the ORDERS there, if something must come before or after it");
     Ok(())
 }
@@ -137,7 +143,7 @@ pub struct TYPE {
 }
 
 impl Stage for TYPE {
-    const NAME: &'static str = \"NAME\";
+    const NAME: &'static str = \"WORD\";
 
     fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
         skein.rewrite(notes, |_index, layer, _notes| Ok(layer.lines))

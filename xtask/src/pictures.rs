@@ -13,7 +13,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
     if let Some(word) = args.first() {
         return Err(format!("`{word}` is not known; `pictures` has no options"));
     }
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let root = crate::root();
     put(&root.join("docs/vase.svg"), &vase(&root)?)?;
     for entry in STAGES.iter().filter(|entry| entry.page.contains(&format!("({}.svg)", entry.name))) {
         let picture = case(entry.name, entry.page).map_err(|error| format!("{}: {error}", entry.name))?;
@@ -78,7 +78,7 @@ fn block(text: &str) -> &str {
     body.find("```").map_or(body, |end| &body[..end])
 }
 
-/// The header that the cases of the pages leave out.
+/// The header that the cases of the pages leave out; `tests/cases.rs` has the same.
 const HEADER: &str = "\
 (<extruderInitialization>)
 (<decimalPlacesCarried> 3 </decimalPlacesCarried>)
@@ -87,8 +87,12 @@ const HEADER: &str = "\
 (<nozzleDiameter> 3.0 </nozzleDiameter>)
 (<eUnit> mm3 </eUnit>)
 (<beadSection> rectangle </beadSection>)
+(<operatingFeedRatePerSecond> 30.0 </operatingFeedRatePerSecond>)
+(<travelFeedRatePerSecond> 60.0 </travelFeedRatePerSecond>)
 (<infillWidth> 3.0 </infillWidth>)
 (<edgeWidth> 3.0 </edgeWidth>)
+(<settings>)
+(</settings>)
 (</extruderInitialization>)
 (<crafting>)
 ";

@@ -15,8 +15,6 @@ use clap::Parser;
 use std::process::ExitCode;
 
 /// Many short-lived lists on several threads: see docs/performance.md.
-#[global_allocator]
-static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();

@@ -66,6 +66,8 @@ impl V {
 pub(super) struct Curves {
     points: Vec<V>,
     rings: Vec<Tree>,
+    /// Which sides are no part of an offset side.
+    spokes: Vec<bool>,
 }
 
 /// How many sides a leaf of the tree holds: few enough to compare all with all, enough to keep the tree small.
@@ -121,13 +123,8 @@ struct Circle {
     points: Vec<V>,
     /// Where each arc begins in `points`.
     arcs: Vec<usize>,
-}
-
-impl Circle {
-    fn length(&self) -> f64 {
-        let next = self.points.iter().skip(1).chain(self.points.first());
-        self.points.iter().zip(next).map(|(from, to)| from.to(*to)).map(|side| side.dot(side).sqrt()).sum()
-    }
+    /// How long it is, spokes not counted.
+    length: f64,
 }
 
 /// One strand's passage through a crossing.
@@ -142,12 +139,22 @@ struct Visit {
 impl Curves {
     /// Adds a closed curve.
     pub(super) fn push(&mut self, points: impl IntoIterator<Item = V>) {
+        self.push_with_spokes(points, &[]);
+    }
+
+    /// Adds a closed curve, some of whose sides, given by the index of their start in it, are no part of an offset
+    /// side but lead to a corner of the ring and back.
+    pub(super) fn push_with_spokes(&mut self, points: impl IntoIterator<Item = V>, spokes: &[usize]) {
         let start = self.points.len();
         self.points.extend(points);
         let end = self.points.len();
         if end - start < 3 {
             self.points.truncate(start);
             return;
+        }
+        self.spokes.resize(end, false);
+        for index in spokes {
+            self.spokes[start + index] = true;
         }
         self.rings.push(Tree::new(&self.points, start, end));
     }
@@ -165,7 +172,7 @@ impl Curves {
         for circle in self.circles(&crossings) {
             match self.is_outline(&circle) {
                 Some(true) => result.rings.extend(rounded(&circle.points)),
-                Some(false) => result.lost = result.lost.max(circle.length()),
+                Some(false) => result.lost = result.lost.max(circle.length),
                 None => return Offset { rings: boolean::positive(&self.raw()), lost: f64::INFINITY },
             }
         }
@@ -333,7 +340,13 @@ impl Curves {
         for tree in &self.rings {
             let to = from + visits[from..].iter().take_while(|visit| visit.side < tree.end).count();
             if from == to {
-                circles.push(Circle { points: self.points[tree.start..tree.end].to_vec(), arcs: vec![0] });
+                let mut circle = Circle::default();
+                circle.arcs.push(0);
+                for side in tree.start..tree.end {
+                    circle.points.push(self.points[side]);
+                    self.lengthen(&mut circle, side, self.after(tree, side));
+                }
+                circles.push(circle);
             }
             from = to;
         }
@@ -367,10 +380,23 @@ impl Curves {
         let mut around = next <= here;
         while side != visits[next].side || around {
             around = around && side + 1 != tree.end;
-            side = tree.next(side);
-            circle.points.push(self.points[side]);
+            let following = tree.next(side);
+            self.lengthen(circle, side, self.points[following]);
+            circle.points.push(self.points[following]);
+            side = following;
         }
+        self.lengthen(circle, side, crossings[visits[next].crossing].at);
         visits[next].partner
+    }
+
+    /// Counts the way from a loop's last point to the next, unless it is on a spoke.
+    fn lengthen(&self, circle: &mut Circle, side: usize, to: V) {
+        if let Some(from) = circle.points.last()
+            && !self.spokes[side]
+        {
+            let way = from.to(to);
+            circle.length += way.dot(way).sqrt();
+        }
     }
 
     fn tree_of(&self, side: usize) -> &Tree {
@@ -380,45 +406,24 @@ impl Curves {
     /// Whether the winding number is 1 on the left of a loop and 0 on its right; `None` when its arcs disagree.
     fn is_outline(&self, circle: &Circle) -> Option<bool> {
         // Between two crossings the winding number cannot change, so one look at each arc is enough.
-        let mut verdict = None;
+        let mut seen = false;
         for (index, &start) in circle.arcs.iter().enumerate() {
             let end = circle.arcs.get(index + 1).copied().unwrap_or(circle.points.len());
-            let Some((left, right)) = self.look_beside(circle, start..end) else { continue };
-            if left != right + 1 || verdict.is_some_and(|before| before != (left == 1)) {
+            let Some((place, aside)) = place_beside(circle, start..end) else { continue };
+            let left = self.winding(place.plus(aside, 1.0));
+            if left <= 0 {
+                // Not covered, whatever lies on the other side.
+                return if seen { None } else { Some(false) };
+            }
+            if self.winding(place.plus(aside, -1.0)) != left - 1 {
                 return None;
             }
-            verdict = Some(left == 1);
-            if left != 1 {
-                break;
+            if left > 1 {
+                return if seen { None } else { Some(false) };
             }
+            seen = true;
         }
-        verdict.or(Some(false))
-    }
-
-    /// The winding numbers left and right of the longest of some sides; `None` when all are shorter than a micron,
-    /// which vanishes in rounding anyway.
-    fn look_beside(&self, circle: &Circle, sides: std::ops::Range<usize>) -> Option<(i32, i32)> {
-        let points = &circle.points;
-        let side = |index: usize| {
-            let from = points[index];
-            (from, from.to(points[if index + 1 == points.len() { 0 } else { index + 1 }]))
-        };
-        let (mut best, mut length2) = (None, 1.0);
-        for index in sides {
-            let vector = side(index).1;
-            if vector.dot(vector) > length2 {
-                length2 = vector.dot(vector);
-                best = Some(index);
-            }
-        }
-        let (from, vector) = side(best?);
-        let middle = from.plus(vector, 0.5);
-        // A hundredth of a micron: far above the error of a float, far below what is printed.
-        let reach = 0.01 / length2.sqrt();
-        Some((
-            self.winding(middle.plus(vector.left(), reach)),
-            self.winding(middle.plus(vector.left(), -reach)),
-        ))
+        Some(seen)
     }
 
     /// How far along a ray, in lengths of `toward`, the first curve is met, if nearer than `reach`.
@@ -434,6 +439,25 @@ impl Curves {
     fn winding(&self, point: V) -> i32 {
         self.rings.iter().map(|tree| tree.winding(self, tree.levels.len() - 1, 0, point)).sum()
     }
+}
+
+/// The middle of the longest of some sides and a hundredth of a micron to its left: far above the error of a float, far
+/// below what is printed. `None` when all are shorter than a micron, which vanishes in rounding anyway.
+fn place_beside(circle: &Circle, sides: std::ops::Range<usize>) -> Option<(V, V)> {
+    let points = &circle.points;
+    let side = |index: usize| points[index].to(points[if index + 1 == points.len() { 0 } else { index + 1 }]);
+    let (mut best, mut length2) = (None, 1.0);
+    for index in sides {
+        let vector = side(index);
+        if vector.dot(vector) > length2 {
+            length2 = vector.dot(vector);
+            best = Some(index);
+        }
+    }
+    let index = best?;
+    let (vector, reach) = (side(index), 0.01 / length2.sqrt());
+    let left = vector.left();
+    Some((points[index].plus(vector, 0.5), V { x: left.x * reach, y: left.y * reach }))
 }
 
 impl Tree {

@@ -14,7 +14,7 @@ pub use middle::{MiddleLine, thin_parts};
 pub use offset::{crossing, facing, offset, offset_with_loss, outside, united};
 pub use point::{Point, cross};
 pub use ring::Ring;
-pub use simplify::simplified;
+pub use simplify::{all_simplified, simplified};
 
 #[cfg(test)]
 mod tests;

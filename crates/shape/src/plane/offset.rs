@@ -59,77 +59,149 @@ impl Curves {
     /// otherwise the curve goes to the end of one offset side, through the corner itself and on to the start of the
     /// next, which gives what is too narrow a winding number of zero or less.
     fn push_offset(&mut self, ring: &[Point], distance: f64) {
-        // Doubled points have no direction.
-        let mut corners: Vec<V> = Vec::with_capacity(ring.len());
-        for point in ring {
-            let corner = V::of(*point);
-            if corners.last() != Some(&corner) {
-                corners.push(corner);
-            }
-        }
-        while corners.len() > 1 && corners.first() == corners.last() {
-            corners.pop();
-        }
-        let count = corners.len();
-        if count < 3 {
-            return;
-        }
-        // Length and direction of the side that starts at each corner.
-        let mut sides: Vec<(f64, V)> = Vec::with_capacity(count);
-        for index in 0..count {
-            let vector = corners[index].to(corners[if index + 1 == count { 0 } else { index + 1 }]);
-            let length = vector.dot(vector).sqrt();
-            sides.push((length, V { x: vector.x / length, y: vector.y / length }));
-        }
-        // How much of its sides each corner eats; infinite where the curve turns back.
-        let mut eaten: Vec<f64> = Vec::with_capacity(count);
-        let mut before = sides[count - 1].1;
-        for &(_, after) in &sides {
-            let (turn, straight) = (before.cross(after), before.dot(after));
-            eaten.push(match turn * distance > 0.0 {
-                true if straight > -0.999 => distance.abs() * turn.abs() / (1.0 + straight),
-                true => f64::INFINITY,
-                false => 0.0,
-            });
-            before = after;
-        }
-        let mut points = Vec::with_capacity(count + count / 4);
-        let mut last = count - 1;
-        for index in 0..count {
-            let next = if index + 1 == count { 0 } else { index + 1 };
-            let (corner, before, after) = (corners[index], sides[last].1, sides[index].1);
-            let inner = eaten[index] > 0.0;
-            let through = inner
-                && (eaten[last] + eaten[index] > sides[last].0
-                    || eaten[index] + eaten[next] > sides[index].0);
-            let (turn, straight) = (before.cross(after), before.dot(after));
+        let Some((sides, first)) = sides(ring, distance) else { return };
+        let mut points = Vec::with_capacity(sides.len() + sides.len() / 4);
+        let mut spokes = Vec::new();
+        let mut here = first;
+        loop {
+            let side = &sides[here];
+            let before = &sides[side.before];
+            let (corner, turn, straight) =
+                (side.corner, before.along.cross(side.along), before.along.dot(side.along));
+            let through = side.eaten > 0.0
+                && (before.eaten + side.eaten > before.length
+                    || side.eaten + sides[side.after].eaten > side.length);
             if through {
-                points.push(corner.plus(before.left(), distance));
+                spokes.extend([points.len(), points.len() + 1]);
+                points.push(corner.plus(before.along.left(), distance));
                 points.push(corner);
-                points.push(corner.plus(after.left(), distance));
-            } else if inner || straight >= 0.0 {
-                let middle = V { x: before.left().x + after.left().x, y: before.left().y + after.left().y };
+                points.push(corner.plus(side.along.left(), distance));
+            } else if side.eaten > 0.0 || straight >= 0.0 {
+                let (one, other) = (before.along.left(), side.along.left());
+                let middle = V { x: one.x + other.x, y: one.y + other.y };
                 points.push(corner.plus(middle, distance / (1.0 + straight)));
             } else {
-                // Corners of a polygon around the arc: no point is nearer than the distance.
-                let angle = libm::atan2(turn.abs(), straight);
-                let steps = (angle / std::f64::consts::FRAC_PI_4).ceil();
-                let half = angle / steps / 2.0;
-                let reach = distance / libm::cos(half);
-                let sense = if distance > 0.0 { -1.0 } else { 1.0 };
-                for step in 0..steps as usize {
-                    let turned = sense * half * (2.0 * step as f64 + 1.0);
-                    let (sine, cosine) = (libm::sin(turned), libm::cos(turned));
-                    let normal = before.left();
-                    let spoke =
-                        V { x: normal.x * cosine - normal.y * sine, y: normal.x * sine + normal.y * cosine };
-                    points.push(corner.plus(spoke, reach));
-                }
+                push_arc(&mut points, corner, before.along.left(), turn, straight, distance);
             }
-            last = index;
+            here = side.after;
+            if here == first {
+                break;
+            }
         }
-        self.push(points);
+        self.push_with_spokes(points, &spokes);
     }
+}
+
+/// Corners of a polygon around the arc that rounds a corner: no point is nearer than the distance.
+fn push_arc(points: &mut Vec<V>, corner: V, normal: V, turn: f64, straight: f64, distance: f64) {
+    let angle = libm::atan2(turn.abs(), straight);
+    let steps = (angle / std::f64::consts::FRAC_PI_4).ceil();
+    let half = angle / steps / 2.0;
+    let reach = distance / libm::cos(half);
+    let sense = if distance > 0.0 { -1.0 } else { 1.0 };
+    for step in 0..steps as usize {
+        let turned = sense * half * (2.0 * step as f64 + 1.0);
+        let (sine, cosine) = (libm::sin(turned), libm::cos(turned));
+        let spoke = V { x: normal.x * cosine - normal.y * sine, y: normal.x * sine + normal.y * cosine };
+        points.push(corner.plus(spoke, reach));
+    }
+}
+
+/// A side of a ring on its way to be offset.
+struct Side {
+    /// Where it starts.
+    corner: V,
+    /// Its direction, of length one.
+    along: V,
+    length: f64,
+    /// How much of this side and of the one before their common corner eats, where it turns towards the offset;
+    /// infinite where the curve turns back.
+    eaten: f64,
+    before: usize,
+    after: usize,
+}
+
+/// The sides of a ring, chained, and the first of them; `None` for less than a triangle.
+///
+/// Between two corners that turn towards the offset, a side that both eat up is left out and its neighbours are
+/// prolonged until they meet: the offset of the three is the same as that of the two. That takes the small change out
+/// of rounded tips, where every lost side would otherwise cost a crossing.
+fn sides(ring: &[Point], distance: f64) -> Option<(Vec<Side>, usize)> {
+    // Doubled points have no direction.
+    let mut corners: Vec<V> = Vec::with_capacity(ring.len());
+    for point in ring {
+        let corner = V::of(*point);
+        if corners.last() != Some(&corner) {
+            corners.push(corner);
+        }
+    }
+    while corners.len() > 1 && corners.first() == corners.last() {
+        corners.pop();
+    }
+    let count = corners.len();
+    if count < 3 {
+        return None;
+    }
+    let mut sides: Vec<Side> = Vec::with_capacity(count);
+    for (index, &corner) in corners.iter().enumerate() {
+        let after = if index + 1 == count { 0 } else { index + 1 };
+        let before = if index == 0 { count - 1 } else { index - 1 };
+        let vector = corner.to(corners[after]);
+        let length = vector.dot(vector).sqrt();
+        let along = V { x: vector.x / length, y: vector.y / length };
+        sides.push(Side { corner, along, length, eaten: 0.0, before, after });
+    }
+    for index in 0..count {
+        sides[index].eaten = eaten(&sides, index, distance);
+    }
+    let mut left = count;
+    let mut first = 0;
+    let mut suspects: Vec<usize> = (0..count).filter(|index| is_swallowed(&sides, *index)).collect();
+    while let Some(index) = suspects.pop() {
+        if left == 3 || sides[index].length.is_nan() || !is_swallowed(&sides, index) {
+            continue;
+        }
+        let (before, after) = (sides[index].before, sides[index].after);
+        let (turn, straight) =
+            (sides[before].along.cross(sides[after].along), sides[before].along.dot(sides[after].along));
+        // Neighbours that turn by nearly half a circle do not meet within reason.
+        if turn * distance <= 0.0 || straight < -0.9 {
+            continue;
+        }
+        let gap = sides[index].corner.to(sides[after].corner);
+        let ahead = gap.cross(sides[after].along) / turn;
+        let behind = gap.cross(sides[before].along) / turn;
+        sides[after].corner = sides[index].corner.plus(sides[before].along, ahead);
+        sides[before].length += ahead;
+        sides[after].length += behind;
+        sides[before].after = after;
+        sides[after].before = before;
+        // A mark that it is gone, should it still be among the suspects.
+        sides[index].length = f64::NAN;
+        first = after;
+        left -= 1;
+        sides[after].eaten = eaten(&sides, after, distance);
+        suspects.extend([before, after].into_iter().filter(|index| is_swallowed(&sides, *index)));
+    }
+    Some((sides, first))
+}
+
+/// How much the corner at the start of a side eats of both its sides.
+fn eaten(sides: &[Side], index: usize, distance: f64) -> f64 {
+    let (before, after) = (sides[sides[index].before].along, sides[index].along);
+    let (turn, straight) = (before.cross(after), before.dot(after));
+    match turn * distance > 0.0 {
+        true if straight > -0.999 => distance.abs() * turn.abs() / (1.0 + straight),
+        true => f64::INFINITY,
+        false => 0.0,
+    }
+}
+
+/// Whether the corners at both ends turn towards the offset and eat more than the whole side.
+fn is_swallowed(sides: &[Side], index: usize) -> bool {
+    let side = &sides[index];
+    let end = sides[side.after].eaten;
+    side.eaten > 0.0 && end > 0.0 && side.eaten + end > side.length
 }
 
 /// The parts of some loops that lie outside a region, each as the vector from its start to its end in microns.

@@ -47,6 +47,11 @@ pub fn simplified(ring: &Ring, tolerance: f64) -> Option<Ring> {
     (ring.0.len() > 2 && ring.area2() != 0).then_some(ring)
 }
 
+/// Every ring [`simplified`].
+pub fn all_simplified(rings: &[Ring], tolerance: f64) -> Vec<Ring> {
+    rings.iter().filter_map(|ring| simplified(ring, tolerance)).collect()
+}
+
 /// Squared distance in square microns from a point to a segment.
 fn distance2_to_segment(from: Point, to: Point, point: Point) -> f64 {
     let (along, reach) = (from.delta(to), from.delta(point));

@@ -3,7 +3,7 @@
 use crate::Fill;
 use crate::source::Source;
 use crate::strand::{Strand, share, spacing};
-use shape::plane::{Offset, facing, offset, offset_with_loss, thin_parts};
+use shape::plane::{Offset, all_simplified, facing, offset, offset_with_loss, thin_parts};
 use skein::{Feature, Ratio, Ring};
 
 /// What the walls leave for the infill.
@@ -15,6 +15,9 @@ pub struct Walls {
     /// Where the middles of infill beads may go.
     pub inside: Vec<Ring>,
 }
+
+/// A wall keeps no corner nearer to a straight line than half a hundredth of a bead.
+const FINENESS: f64 = 200.0;
 
 /// Lays the walls of a layer.
 pub fn of(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) -> Walls {
@@ -48,7 +51,7 @@ pub fn of(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) 
             let inside = if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
             return Walls { room: room.rings, filled, inside };
         }
-        wall = next.rings;
+        wall = all_simplified(&next.rings, step / FINENESS);
     }
 }
 

@@ -1,6 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-use shape::plane::{MiddleLine, offset_with_loss, thin_parts};
+use shape::plane::{MiddleLine, all_simplified, offset_with_loss, thin_parts};
 use skein::{
     Bead, Choice, Error, Facts, Feature, Layer, Line, Micron, Move, Notes, Point, Point3, Ratio, Ring,
     Settings, Side, Skein, Stage, Tag, boundary,
@@ -49,7 +49,7 @@ impl Inset {
         let half = bead.width.um() / 2.0;
         let shrunk = offset_with_loss(&outlines, -half);
         let middles = thin_parts(&outlines, &shrunk, bead.width.um());
-        let walls = shrunk.rings;
+        let walls = all_simplified(&shrunk.rings, bead.width.um() / FINENESS);
         let homes = homes(&outlines, &walls);
         let mut lines =
             Vec::with_capacity(layer.lines.len() + walls.iter().map(|wall| wall.0.len() + 6).sum::<usize>());
@@ -107,6 +107,9 @@ impl Inset {
         Ok(())
     }
 }
+
+/// A wall keeps no corner nearer to a straight line than half a hundredth of a bead.
+const FINENESS: f64 = 200.0;
 
 /// The outline that each wall belongs to: the smallest that holds it, or for the wall of a hole the hole inside it.
 fn homes(outlines: &[Ring], walls: &[Ring]) -> Vec<usize> {
