@@ -579,6 +579,20 @@ fn the_part_is_never_written_over() {
     assert_eq!(room.listing(), before);
 }
 
+/// A link means the file that it leads to, and a device cannot be replaced.
+#[cfg(unix)]
+#[test]
+fn a_link_is_written_through_and_a_device_straight() {
+    let room = Room::new();
+    room.put("cube.stl", example("cube")).put("target.gcode", "yesterday's\n");
+    std::os::unix::fs::symlink("target.gcode", room.path("link.gcode")).expect("a link");
+    room.run(&["slice", "cube.stl", "-o", "link.gcode"]).done();
+    assert!(fs::symlink_metadata(room.path("link.gcode")).expect("it is there").is_symlink());
+    assert!(text_of(&room.path("target.gcode")).contains("G1 "));
+    room.run(&["slice", "cube.stl", "-o", "/dev/null"]).done();
+    assert_eq!(room.listing().len(), 3);
+}
+
 #[test]
 fn a_reader_that_goes_away_is_no_failure() {
     let room = Room::new();

@@ -4,6 +4,7 @@ use clayforge::{Event, Notes, Profile, Sliced};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
+use unit::Angle;
 
 /// The folder of the workspace.
 pub fn root() -> PathBuf {
@@ -35,8 +36,20 @@ pub fn name_of(path: &Path) -> String {
     path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
-/// The lines in which two texts differ: `-` was expected, `+` was found. Equal lines far from a difference are left out.
+/// The lines in which two texts differ: `-` was expected, `+` was found. Equal lines far from a difference are left out,
+/// and so is what nobody would read.
 pub fn difference(expected: &str, found: &str) -> String {
+    /// Enough to see what kind of difference it is.
+    const MOST: usize = 60;
+    let whole = whole_difference(expected, found);
+    let lines: Vec<&str> = whole.lines().collect();
+    if lines.len() <= MOST {
+        return whole;
+    }
+    format!("{}\n  … and {} lines more\n", lines[..MOST].join("\n"), lines.len() - MOST)
+}
+
+fn whole_difference(expected: &str, found: &str) -> String {
     /// The table of common lines grows with the product of both; what is beyond is compared line by line.
     const MOST: usize = 2000;
     let (old, new): (Vec<&str>, Vec<&str>) = (expected.lines().collect(), found.lines().collect());
@@ -254,10 +267,14 @@ pub fn prism(outline: &[[f64; 2]], low: f64, high: f64) -> Triangles {
     triangles
 }
 
-/// A regular polygon around the origin, counter-clockwise.
+/// A regular polygon around the origin, counter-clockwise; the same bits on every platform, which `f64::sin` is not.
 pub fn polygon(corners: usize, radius: f64) -> Vec<[f64; 2]> {
-    let angle = |index: usize| std::f64::consts::TAU * index as f64 / corners as f64;
-    (0..corners).map(|index| [radius * angle(index).cos(), radius * angle(index).sin()]).collect()
+    let at = |index: usize| {
+        let angle = Angle::from_degrees(360.0 * index as f64 / corners as f64).expect("an angle");
+        let direction = angle.direction();
+        [direction.x, direction.y].map(|share| radius * f64::from(share) / 1e6)
+    };
+    (0..corners).map(at).collect()
 }
 
 /// A tube of 48 corners.

@@ -25,21 +25,28 @@ pub fn write_short(out: &mut Vec<u8>, value: i64, places: u32) {
 const POWERS: [u64; 10] =
     [1, 10, 100, 1_000, 10_000, 100_000, 1_000_000, 10_000_000, 100_000_000, 1_000_000_000];
 
-/// Two digits at a time halve the divisions.
-const PAIRS: &[u8; 200] = b"0001020304050607080910111213141516171819\
-2021222324252627282930313233343536373839\
-4041424344454647484950515253545556575859\
-6061626364656667686970717273747576777879\
-8081828384858687888990919293949596979899";
+/// The three digits of every number below a thousand.
+const DIGITS: [[u8; 3]; 1000] = {
+    let mut table = [[b'0'; 3]; 1000];
+    let mut number = 0;
+    while number < 1000 {
+        table[number] =
+            [b'0' + (number / 100) as u8, b'0' + (number / 10 % 10) as u8, b'0' + (number % 10) as u8];
+        number += 1;
+    }
+    table
+};
 
 #[inline]
 fn write_at_least(out: &mut Vec<u8>, value: i64, places: u32, least: u32) {
+    let magnitude = value.unsigned_abs();
+    if places == 3 && magnitude < 1_000_000 {
+        return write_small(out, value < 0, magnitude as u32, least);
+    }
     let mut buffer = [0u8; 32];
     let mut at = buffer.len();
-    let magnitude = value.unsigned_abs();
     let (whole, fraction) = match places {
-        // Constants divide faster than variables; three places are nearly all there is.
-        3 => (magnitude / 1000, magnitude % 1000),
+        // Constants divide faster than variables.
         5 => (magnitude / 100_000, magnitude % 100_000),
         _ => (magnitude / POWERS[places as usize], magnitude % POWERS[places as usize]),
     };
@@ -59,25 +66,41 @@ fn write_at_least(out: &mut Vec<u8>, value: i64, places: u32, least: u32) {
         buffer[at] = b'.';
     }
     let mut whole = whole;
-    while whole >= 100 {
-        let pair = (whole % 100) as usize * 2;
-        whole /= 100;
-        at -= 2;
-        buffer[at..at + 2].copy_from_slice(&PAIRS[pair..pair + 2]);
-    }
-    if whole >= 10 {
-        let pair = whole as usize * 2;
-        at -= 2;
-        buffer[at..at + 2].copy_from_slice(&PAIRS[pair..pair + 2]);
-    } else {
+    loop {
         at -= 1;
-        buffer[at] = b'0' + whole as u8;
+        buffer[at] = b'0' + (whole % 10) as u8;
+        whole /= 10;
+        if whole == 0 {
+            break;
+        }
     }
     if value < 0 {
         at -= 1;
         buffer[at] = b'-';
     }
     out.extend_from_slice(&buffer[at..]);
+}
+
+/// Three places and less than a metre: nearly every coordinate there is.
+#[inline]
+fn write_small(out: &mut Vec<u8>, negative: bool, thousandths: u32, least: u32) {
+    let (whole, fraction) = ((thousandths / 1000) as usize, (thousandths % 1000) as usize);
+    let leading = 3 - usize::from(whole >= 100) - usize::from(whole >= 10) - 1;
+    let places = match fraction {
+        0 => least as usize,
+        _ if fraction.is_multiple_of(100) => 1,
+        _ if fraction.is_multiple_of(10) => 2,
+        _ => 3,
+    };
+    let ([a, b, c], [d, e, f]) = (DIGITS[whole], DIGITS[fraction]);
+    // Written as a block of fixed size and cut, which is faster than copying just as many bytes as there are.
+    let block = u64::from_le_bytes([a, b, c, b'.', d, e, f, 0]) >> (8 * leading);
+    if negative {
+        out.push(b'-');
+    }
+    out.extend_from_slice(&block.to_le_bytes());
+    let kept = 3 - leading + if places > 0 { 1 + places } else { 0 };
+    out.truncate(out.len() - 8 + kept);
 }
 
 /// The number at the start of `text` as an integer of 10^-`places`, and how many bytes it took.
@@ -129,4 +152,35 @@ pub fn read_prefix(text: &[u8], places: u32) -> Option<(i64, usize)> {
 /// ```
 pub fn read(text: &[u8], places: u32) -> Option<i64> {
     read_prefix(text, places).filter(|(_, length)| *length == text.len()).map(|(value, _)| value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_small_number_has_one_spelling_that_reads_back() {
+        for value in (-1_002_000..1_002_000).step_by(7).chain([
+            -1,
+            0,
+            1,
+            10,
+            100,
+            999_999,
+            1_000_000,
+            i64::MAX,
+            i64::MIN + 1,
+        ]) {
+            for places in [3, 5, 6] {
+                let (mut text, mut short) = (Vec::new(), Vec::new());
+                write(&mut text, value, places);
+                write_short(&mut short, value, places);
+                let plain = String::from_utf8_lossy(&text).into_owned();
+                assert_eq!(read(&text, places), Some(value), "{plain}");
+                assert_eq!(read(&short, places), Some(value), "{plain}");
+                assert!(plain.contains('.') && (plain.ends_with(".0") || !plain.ends_with('0')), "{plain}");
+                assert_eq!(plain.strip_suffix(".0").unwrap_or(&plain).as_bytes(), short);
+            }
+        }
+    }
 }

@@ -13,13 +13,48 @@ pub struct Hatch {
     spacing: f64,
     /// The number of the lowest row; row `k` lies at height `k` × spacing in the turned frame.
     first: i64,
-    /// Where each row's spans begin; one more than there are rows.
-    starts: Vec<u32>,
-    spans: Vec<Span>,
+    rows: Rows,
     crossings: Vec<Crossing>,
     /// The turned points of all rings, one ring after the other.
     points: Vec<(f64, f64)>,
     rings: Vec<std::ops::Range<usize>>,
+}
+
+/// The spans of successive rows.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Rows {
+    spans: Vec<Span>,
+    /// Where each row ends in `spans`.
+    ends: Vec<u32>,
+}
+
+impl Rows {
+    /// The rows in order, each with its spans from left to right.
+    pub fn iter(&self) -> impl Iterator<Item = &[Span]> {
+        (0..self.ends.len()).map(|row| self.row(row))
+    }
+
+    /// The spans of a row; none beyond the last.
+    pub fn row(&self, row: usize) -> &[Span] {
+        let range = self.range(row);
+        &self.spans[range]
+    }
+
+    /// Appends a span to the row that is being built.
+    pub fn push(&mut self, span: Span) {
+        self.spans.push(span);
+    }
+
+    /// Ends the row that is being built.
+    pub fn end_row(&mut self) {
+        self.ends.push(self.spans.len() as u32);
+    }
+
+    fn range(&self, row: usize) -> std::ops::Range<usize> {
+        let end = |row: usize| self.ends.get(row).copied().unwrap_or(self.spans.len() as u32) as usize;
+        let start = if row == 0 { 0 } else { end(row - 1) };
+        start..end(row)
+    }
 }
 
 /// A part of a row.
@@ -89,18 +124,19 @@ impl Hatch {
             }
         }
         let (first, starts, mut order) = by_row(crossings.iter().map(|crossing| crossing.row));
-        let mut spans = Vec::with_capacity(crossings.len() / 2);
+        let mut rows =
+            Rows { spans: Vec::with_capacity(crossings.len() / 2), ends: Vec::with_capacity(starts.len()) };
         for row in starts.windows(2) {
             let row = &mut order[row[0] as usize..row[1] as usize];
             row.sort_unstable_by(|one, other| {
                 crossings[*one as usize].x.total_cmp(&crossings[*other as usize].x).then(one.cmp(other))
             });
             let end = |index: u32| End { x: crossings[index as usize].x, crossing: Some(index) };
-            spans.extend(row.chunks_exact(2).map(|pair| Span { left: end(pair[0]), right: end(pair[1]) }));
+            rows.spans
+                .extend(row.chunks_exact(2).map(|pair| Span { left: end(pair[0]), right: end(pair[1]) }));
+            rows.end_row();
         }
-        // Rows have whole pairs, so spans begin at half of where their crossings do.
-        let starts = starts.into_iter().map(|start| start / 2).collect();
-        Self { cosine, sine, spacing, first, starts, spans, crossings, points, rings }
+        Self { cosine, sine, spacing, first, rows, crossings, points, rings }
     }
 
     /// The number of the lowest row.
@@ -109,8 +145,8 @@ impl Hatch {
     }
 
     /// The spans of every row, from the lowest up.
-    pub fn rows(&self) -> impl Iterator<Item = &[Span]> {
-        self.starts.windows(2).map(|row| &self.spans[row[0] as usize..row[1] as usize])
+    pub fn rows(&self) -> &Rows {
+        &self.rows
     }
 
     /// The height of a row in the turned frame.
@@ -121,18 +157,17 @@ impl Hatch {
     /// Joins spans to threads: each goes along a span, over to the next row, and back. `rows` holds for every row of
     /// the hatch the parts of its spans that are wanted, in order. A joint along the outline is at most `reach`
     /// microns long; cut ends of neighbouring rows are joined straight when they are at most `reach` apart.
-    pub fn threads(&self, rows: &[Vec<Span>], reach: f64) -> Vec<Vec<Point>> {
+    pub fn threads(&self, rows: &Rows, reach: f64) -> Vec<Vec<Point>> {
         let mut book = Book::new(self, rows);
         let mut threads = Vec::new();
-        for (row, spans) in rows.iter().enumerate() {
-            for index in 0..spans.len() {
-                if book.used[row][index] {
+        for row in 0..rows.ends.len() {
+            for span in rows.range(row) {
+                if std::mem::replace(&mut book.used[span], true) {
                     continue;
                 }
-                book.used[row][index] = true;
                 // Begin at the end that leads nowhere, so that the other one may lead on.
-                let leads_on = book.next(row, index, true, reach).is_some();
-                threads.push(book.thread(row, index, leads_on, reach));
+                let leads_on = book.next(row, span, true, reach).is_some();
+                threads.push(book.thread(row, span, leads_on, reach));
             }
         }
         threads
@@ -232,55 +267,51 @@ fn by_row(rows: impl Iterator<Item = i64> + Clone) -> (i64, Vec<u32>, Vec<u32>) 
 /// Which spans have been used, and which span ends at a crossing.
 struct Book<'a> {
     hatch: &'a Hatch,
-    rows: &'a [Vec<Span>],
-    used: Vec<Vec<bool>>,
-    /// For every crossing the span (row, index) that ends there.
-    at_crossing: Vec<Option<(u32, u32)>>,
+    rows: &'a Rows,
+    used: Vec<bool>,
+    /// For every crossing the span that ends there.
+    at_crossing: Vec<Option<u32>>,
 }
 
 /// How a thread goes on: the span it enters, at which end, and the points on the way.
 struct Joint {
     row: usize,
-    index: usize,
+    span: usize,
     enter_right: bool,
     way: Vec<Point>,
 }
 
 impl<'a> Book<'a> {
-    fn new(hatch: &'a Hatch, rows: &'a [Vec<Span>]) -> Self {
+    fn new(hatch: &'a Hatch, rows: &'a Rows) -> Self {
         let mut at_crossing = vec![None; hatch.crossings.len()];
-        for (row, spans) in rows.iter().enumerate() {
-            for (index, span) in spans.iter().enumerate() {
-                for end in [span.left, span.right] {
-                    if let Some(crossing) = end.crossing {
-                        at_crossing[crossing as usize] = Some((row as u32, index as u32));
-                    }
-                }
+        for (index, span) in rows.spans.iter().enumerate() {
+            for crossing in [span.left, span.right].into_iter().filter_map(|end| end.crossing) {
+                at_crossing[crossing as usize] = Some(index as u32);
             }
         }
-        Self { hatch, rows, used: rows.iter().map(|spans| vec![false; spans.len()]).collect(), at_crossing }
+        Self { hatch, rows, used: vec![false; rows.spans.len()], at_crossing }
     }
 
     /// Follows a thread from a span to where nothing leads on.
-    fn thread(&mut self, mut row: usize, mut index: usize, mut to_right: bool, reach: f64) -> Vec<Point> {
+    fn thread(&mut self, mut row: usize, mut span: usize, mut to_right: bool, reach: f64) -> Vec<Point> {
         let mut points = Vec::new();
         loop {
-            let span = self.rows[row][index];
+            let Span { left, right } = self.rows.spans[span];
             let height = self.hatch.height(self.hatch.first + row as i64);
-            let (from, to) = if to_right { (span.left, span.right) } else { (span.right, span.left) };
+            let (from, to) = if to_right { (left, right) } else { (right, left) };
             for end in [from, to] {
                 push(&mut points, self.hatch.turned_back(end.x, height));
             }
-            let Some(joint) = self.next(row, index, to_right, reach) else { return points };
+            let Some(joint) = self.next(row, span, to_right, reach) else { return points };
             joint.way.into_iter().for_each(|point| push(&mut points, point));
-            self.used[joint.row][joint.index] = true;
-            (row, index, to_right) = (joint.row, joint.index, !joint.enter_right);
+            self.used[joint.span] = true;
+            (row, span, to_right) = (joint.row, joint.span, !joint.enter_right);
         }
     }
 
     /// Where a thread goes on from the right or left end of a span: to the row above, else to the one below.
-    fn next(&self, row: usize, index: usize, right: bool, reach: f64) -> Option<Joint> {
-        let span = self.rows[row][index];
+    fn next(&self, row: usize, span: usize, right: bool, reach: f64) -> Option<Joint> {
+        let span = self.rows.spans[span];
         let end = if right { span.right } else { span.left };
         match end.crossing {
             Some(crossing) => self.along_ring(crossing, reach),
@@ -294,14 +325,13 @@ impl<'a> Book<'a> {
         neighbours.sort_by_key(|(other, _)| std::cmp::Reverse(self.hatch.crossings[*other as usize].row));
         neighbours.into_iter().find_map(|(other, forwards)| {
             let there = self.hatch.crossings[other as usize];
-            let (row, index) =
-                self.at_crossing[other as usize].map(|(row, index)| (row as usize, index as usize))?;
-            if (there.row - here.row).abs() != 1 || self.used[row][index] {
+            let span = self.at_crossing[other as usize]? as usize;
+            if (there.row - here.row).abs() != 1 || self.used[span] {
                 return None;
             }
             let way = self.way(here, there, forwards, reach)?;
-            let enter_right = self.rows[row][index].right.crossing == Some(other);
-            Some(Joint { row, index, enter_right, way })
+            let enter_right = self.rows.spans[span].right.crossing == Some(other);
+            Some(Joint { row: (there.row - self.hatch.first) as usize, span, enter_right, way })
         })
     }
 
@@ -336,13 +366,13 @@ impl<'a> Book<'a> {
     }
 
     fn across(&self, row: usize, x: f64, right: bool, reach: f64) -> Option<Joint> {
-        let gap = |end: End| (end.x - x).hypot(self.hatch.spacing);
-        [row + 1, row.wrapping_sub(1)].into_iter().find_map(|other| {
-            let spans = self.rows.get(other)?;
-            spans.iter().enumerate().find_map(|(index, span)| {
-                let end = if right { span.right } else { span.left };
-                let fits = end.crossing.is_none() && gap(end) <= reach && !self.used[other][index];
-                fits.then(|| Joint { row: other, index, enter_right: right, way: Vec::new() })
+        let reach2 = reach * reach - self.hatch.spacing * self.hatch.spacing;
+        [Some(row + 1), row.checked_sub(1)].into_iter().flatten().find_map(|other| {
+            self.rows.range(other).find_map(|span| {
+                let Span { left, right: far } = self.rows.spans[span];
+                let end = if right { far } else { left };
+                let fits = end.crossing.is_none() && (end.x - x).powi(2) <= reach2 && !self.used[span];
+                fits.then(|| Joint { row: other, span, enter_right: right, way: Vec::new() })
             })
         })
     }

@@ -28,14 +28,9 @@ pub fn simplified(ring: &Ring, tolerance: f64) -> Option<Ring> {
     let at = |index: usize| points[if index == points.len() { 0 } else { index }];
     let mut spans = vec![(0, other), (other, points.len())];
     while let Some((from, to)) = spans.pop() {
-        let mut worst = (limit, None);
-        for index in from + 1..to {
-            let gap = distance2_to_segment(at(from), at(to), at(index));
-            if gap > worst.0 {
-                worst = (gap, Some(index));
-            }
-        }
-        if let Some(middle) = worst.1 {
+        let (index, gap) = farthest_from(at(from), at(to), &points[from + 1..to]);
+        if gap > limit {
+            let middle = from + 1 + index;
             keep[middle] = true;
             spans.push((from, middle));
             spans.push((middle, to));
@@ -52,13 +47,28 @@ pub fn all_simplified(rings: &[Ring], tolerance: f64) -> Vec<Ring> {
     rings.iter().filter_map(|ring| simplified(ring, tolerance)).collect()
 }
 
-/// Squared distance in square microns from a point to a segment.
-fn distance2_to_segment(from: Point, to: Point, point: Point) -> f64 {
-    let (along, reach) = (from.delta(to), from.delta(point));
-    let (along, reach) = ((along.0 as f64, along.1 as f64), (reach.0 as f64, reach.1 as f64));
+/// Which of some points is farthest from a segment, and its squared distance in square microns.
+fn farthest_from(from: Point, to: Point, points: &[Point]) -> (usize, f64) {
+    let float = |(x, y): (i64, i64)| (x as f64, y as f64);
+    let along = float(from.delta(to));
     let length2 = along.0 * along.0 + along.1 * along.1;
-    let share =
-        if length2 > 0.0 { ((along.0 * reach.0 + along.1 * reach.1) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    let gap = (reach.0 - share * along.0, reach.1 - share * along.1);
-    gap.0 * gap.0 + gap.1 * gap.1
+    let inverse = if length2 > 0.0 { 1.0 / length2 } else { 0.0 };
+    let mut worst = (0, -1.0);
+    for (index, point) in points.iter().enumerate() {
+        let reach = float(from.delta(*point));
+        let share = (along.0 * reach.0 + along.1 * reach.1) * inverse;
+        let gap = if share <= 0.0 {
+            reach.0 * reach.0 + reach.1 * reach.1
+        } else if share >= 1.0 {
+            let beyond = (reach.0 - along.0, reach.1 - along.1);
+            beyond.0 * beyond.0 + beyond.1 * beyond.1
+        } else {
+            let cross = along.0 * reach.1 - along.1 * reach.0;
+            cross * cross * inverse
+        };
+        if gap > worst.1 {
+            worst = (index, gap);
+        }
+    }
+    worst
 }

@@ -231,8 +231,7 @@ mod hatching {
     fn a_square_becomes_one_zig_zag() {
         let region = [square(1_000, 9_000)];
         let hatch = Hatch::new(&region, (1.0, 0.0), 1_000.0);
-        let rows: Vec<_> = hatch.rows().map(<[_]>::to_vec).collect();
-        let threads = hatch.threads(&rows, 3_000.0);
+        let threads = hatch.threads(hatch.rows(), 3_000.0);
         assert_eq!(threads.len(), 1);
         let length: f64 = threads[0].windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         // Rows at 1 … 8 mm, eight millimetres long each, seven joints of one millimetre.
@@ -243,8 +242,7 @@ mod hatching {
     fn a_hole_is_gone_round() {
         let region = [square(0, 20_000), square(6_000, 14_000).reversed()];
         let hatch = Hatch::new(&region, (0.6, 0.8), 1_000.0);
-        let rows: Vec<_> = hatch.rows().map(<[_]>::to_vec).collect();
-        let threads = hatch.threads(&rows, 5_000.0);
+        let threads = hatch.threads(hatch.rows(), 5_000.0);
         assert!(threads.len() <= 4, "{}", threads.len());
         let hole = square(6_100, 13_900);
         assert!(threads.iter().flatten().all(|point| !hole.contains(*point)));

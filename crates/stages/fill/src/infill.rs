@@ -4,7 +4,7 @@ use crate::Fill;
 use crate::source::Source;
 use crate::strand::{Strand, spacing};
 use crate::walls::Walls;
-use shape::plane::hatch::{End, Hatch, Intervals, Span};
+use shape::plane::hatch::{End, Hatch, Intervals, Rows, Span};
 use skein::{Direction, Feature, Notes, Point, Ratio, Ring};
 
 /// The infill of one layer.
@@ -17,6 +17,8 @@ pub struct Job<'a> {
     pub walls: &'a Walls,
     /// The direction of the lines.
     pub direction: Direction,
+    /// Which of the two usual directions and spacings it has, if one of them.
+    pub turn: Option<usize>,
     /// The layers that hide a place from above and below; `None` when all of it is surface.
     pub surroundings: Option<Vec<&'a Source>>,
 }
@@ -41,7 +43,19 @@ impl Job<'_> {
             Surface::default()
         } else {
             let hatch = Hatch::new(&self.walls.inside, turned, step);
-            let surface = Surface::find(&hatch, surroundings, turned, step);
+            // Layers of the usual directions share the rows of those around them.
+            let own: Vec<Intervals>;
+            let around: Vec<&Intervals> = match self.turn {
+                Some(turn) => surroundings.iter().map(|source| source.rows(turn, turned, step)).collect(),
+                None => {
+                    own = surroundings
+                        .iter()
+                        .map(|source| Intervals::new(&source.edges, turned, step))
+                        .collect();
+                    own.iter().collect()
+                }
+            };
+            let surface = Surface::find(&hatch, &around, step);
             for points in hatch.threads(&surface.rows, REACH * step) {
                 self.lay(points, Ratio::ONE, strands);
             }
@@ -50,14 +64,12 @@ impl Job<'_> {
         if density > 0.0 {
             let apart = step / density;
             let hatch = Hatch::new(&self.walls.inside, turned, apart);
-            let rows: Vec<Vec<Span>> = hatch
-                .rows()
-                .enumerate()
-                .map(|(index, row)| {
-                    let height = hatch.height(hatch.first() + index as i64);
-                    without(row, solid.row((height / step).round() as i64), step)
-                })
-                .collect();
+            let mut rows = Rows::default();
+            for (index, row) in hatch.rows().iter().enumerate() {
+                let height = hatch.height(hatch.first() + index as i64);
+                without(row, solid.row((height / step).round() as i64), step, &mut rows);
+                rows.end_row();
+            }
             for points in hatch.threads(&rows, REACH * apart) {
                 self.lay(points, Ratio::ONE, strands);
             }
@@ -66,8 +78,7 @@ impl Job<'_> {
 
     /// Fills everything, with as much clay as there is room.
     fn solid(&self, layer: usize, hatch: &Hatch, step: f64, strands: &mut Vec<Strand>, notes: &mut Notes) {
-        let rows: Vec<Vec<Span>> = hatch.rows().map(<[Span]>::to_vec).collect();
-        let threads = hatch.threads(&rows, REACH * step);
+        let threads = hatch.threads(hatch.rows(), REACH * step);
         let length: f64 =
             threads.iter().flat_map(|points| points.windows(2)).map(|pair| pair[0].distance(pair[1])).sum();
         if length == 0.0 {
@@ -104,26 +115,34 @@ const MOST: f64 = 1.34;
 #[derive(Default)]
 struct Surface {
     first: i64,
-    rows: Vec<Vec<Span>>,
+    rows: Rows,
 }
 
 impl Surface {
     /// What lies in the hatch and not inside the walls of all surrounding layers.
-    fn find(hatch: &Hatch, surroundings: &[&Source], turned: (f64, f64), step: f64) -> Self {
-        let around: Vec<Intervals> =
-            surroundings.iter().map(|source| Intervals::new(&source.edges, turned, step)).collect();
+    fn find(hatch: &Hatch, around: &[&Intervals], step: f64) -> Self {
         let seen: Vec<Vec<(f64, f64)>> = hatch
             .rows()
+            .iter()
             .enumerate()
             .map(|(index, row)| {
                 let number = hatch.first() + index as i64;
                 let mut seen = Vec::new();
                 for span in row {
-                    let mut hidden = vec![(span.left.x, span.right.x)];
-                    for cover in &around {
+                    let (left, right) = (span.left.x, span.right.x);
+                    let hides =
+                        |cover: &&Intervals| cover.row(number).any(|(from, to)| from <= left && right <= to);
+                    // Nearly every span is hidden whole.
+                    let mut rest: Vec<&Intervals> = Vec::new();
+                    rest.extend(around.iter().filter(|cover| !hides(cover)));
+                    if rest.is_empty() {
+                        continue;
+                    }
+                    let mut hidden = vec![(left, right)];
+                    for cover in rest {
                         hidden = common(&hidden, cover.row(number));
                     }
-                    rest((span.left.x, span.right.x), &hidden, &mut seen);
+                    without_hidden((left, right), &hidden, &mut seen);
                 }
                 seen
             })
@@ -133,25 +152,20 @@ impl Surface {
         }
         let kept = without_specks(seen, 4.0 * step * step, step);
         // A surface is laid a bead farther than it is seen, so that it rests on what is beside it.
-        let rows = hatch
-            .rows()
-            .enumerate()
-            .map(|(index, row)| {
-                let near = index.saturating_sub(1)..(index + 2).min(kept.len());
-                let mut wide: Vec<(f64, f64)> =
-                    kept[near].iter().flatten().map(|(left, right)| (left - step, right + step)).collect();
-                wide.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
-                inside(row, &wide, 2.0 * step)
-            })
-            .collect();
+        let mut rows = Rows::default();
+        for (index, row) in hatch.rows().iter().enumerate() {
+            let near = index.saturating_sub(1)..(index + 2).min(kept.len());
+            let mut wide: Vec<(f64, f64)> =
+                kept[near].iter().flatten().map(|(left, right)| (left - step, right + step)).collect();
+            wide.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
+            inside(row, &wide, 2.0 * step, &mut rows);
+            rows.end_row();
+        }
         Self { first: hatch.first(), rows }
     }
 
     fn row(&self, number: i64) -> &[Span] {
-        usize::try_from(number - self.first)
-            .ok()
-            .and_then(|index| self.rows.get(index))
-            .map_or(&[], Vec::as_slice)
+        usize::try_from(number - self.first).map_or(&[], |row| self.rows.row(row))
     }
 }
 
@@ -170,7 +184,7 @@ fn common(one: &[(f64, f64)], other: impl Iterator<Item = (f64, f64)> + Clone) -
 }
 
 /// An interval without sorted others.
-fn rest(whole: (f64, f64), without: &[(f64, f64)], out: &mut Vec<(f64, f64)>) {
+fn without_hidden(whole: (f64, f64), without: &[(f64, f64)], out: &mut Vec<(f64, f64)>) {
     let mut from = whole.0;
     for &(left, right) in without {
         if left > from {
@@ -227,8 +241,7 @@ fn without_specks(rows: Vec<Vec<(f64, f64)>>, least: f64, step: f64) -> Vec<Vec<
 }
 
 /// The parts of a row's spans inside sorted intervals. An end nearer than `snap` to the span's own end goes there.
-fn inside(row: &[Span], wide: &[(f64, f64)], snap: f64) -> Vec<Span> {
-    let mut parts: Vec<Span> = Vec::new();
+fn inside(row: &[Span], wide: &[(f64, f64)], snap: f64, parts: &mut Rows) {
     for span in row {
         let mut run: Option<(f64, f64)> = None;
         let mut close = |run: Option<(f64, f64)>| {
@@ -249,12 +262,10 @@ fn inside(row: &[Span], wide: &[(f64, f64)], snap: f64) -> Vec<Span> {
         }
         close(run);
     }
-    parts
 }
 
 /// A row's spans without others; pieces shorter than `least` are dropped.
-fn without(row: &[Span], others: &[Span], least: f64) -> Vec<Span> {
-    let mut parts = Vec::new();
+fn without(row: &[Span], others: &[Span], least: f64, parts: &mut Rows) {
     for span in row {
         let mut left = span.left;
         for other in others.iter().filter(|other| other.right.x > span.left.x && other.left.x < span.right.x)
@@ -268,5 +279,4 @@ fn without(row: &[Span], others: &[Span], least: f64) -> Vec<Span> {
             parts.push(Span { left, right: span.right });
         }
     }
-    parts
 }

@@ -1,11 +1,13 @@
 //! A layer as inset left it, read once.
 
 use crate::strand::{Island, Strand};
+use shape::plane::hatch::Intervals;
 use skein::{
     Bead, Direction, Error, Facts, Feature, Layer, Line, Micron, Move, Nozzle, Point, Point3, Ratio, Ring,
     Side, Tag,
 };
 use skein::{Mark, boundary};
+use std::sync::OnceLock;
 
 /// What fill needs of a layer.
 pub struct Source {
@@ -21,6 +23,9 @@ pub struct Source {
     pub bead: Bead,
     z: Micron,
     nozzle_z: i32,
+    /// The rows inside the walls, for each of the two directions that layers have by turns; made when a layer near by
+    /// first asks.
+    rows: [OnceLock<Intervals>; 2],
     /// The lines that open the layer, and those nobody knows.
     head: Vec<Line>,
     /// The lines that close it.
@@ -38,6 +43,7 @@ impl Source {
             bead: facts.bead()?.of_height(layer.height(facts)?),
             z: layer.z(),
             nozzle_z: layer.nozzle_z(facts)?.0,
+            rows: Default::default(),
             head: Vec::new(),
             tail: Vec::new(),
         };
@@ -90,6 +96,11 @@ impl Source {
         if thread.points.len() > 2 {
             self.edges.push(Ring(thread.points));
         }
+    }
+
+    /// The rows inside the walls in the direction of even (0) or odd (1) layers.
+    pub fn rows(&self, turn: usize, turned: (f64, f64), step: f64) -> &Intervals {
+        self.rows[turn].get_or_init(|| Intervals::new(&self.edges, turned, step))
     }
 
     /// The layer with everything that is laid on it.
