@@ -11,7 +11,9 @@ pub struct Hatch {
     cosine: f64,
     sine: f64,
     spacing: f64,
-    /// The number of the lowest row; row `k` lies at height `k` × spacing in the turned frame.
+    /// Row `k` lies at height base + `k` × spacing in the turned frame.
+    base: f64,
+    /// The number of the lowest row.
     first: i64,
     rows: Rows,
     crossings: Vec<Crossing>,
@@ -97,23 +99,42 @@ struct Crossing {
 impl Hatch {
     /// Cuts rows in a direction (cosine, sine) across a region; row 0 passes through the origin of the plane, so rows
     /// of all layers of one direction lie above each other.
-    pub fn new(region: &[Ring], (cosine, sine): (f64, f64), spacing: f64) -> Self {
-        let mut points = Vec::with_capacity(region.iter().map(|ring| ring.0.len()).sum());
-        let mut rings = Vec::with_capacity(region.len());
-        for ring in region {
-            let start = points.len();
-            points.extend(ring.0.iter().map(|point| {
-                let (x, y) = (f64::from(point.x), f64::from(point.y));
-                (x * cosine + y * sine, y * cosine - x * sine)
-            }));
-            rings.push(start..points.len());
-        }
+    pub fn new(region: &[Ring], direction: (f64, f64), spacing: f64) -> Self {
+        let (points, rings) = turned(region, direction);
+        Self::across(points, rings, direction, spacing, 0.0)
+    }
+
+    /// Cuts rows that fit the region: the first runs along its lower end, the last along its upper end, and between
+    /// them they lie evenly, as near to `spacing` as that allows.
+    pub fn fitted(region: &[Ring], direction: (f64, f64), spacing: f64) -> Self {
+        let (points, rings) = turned(region, direction);
+        let heights = points.iter().map(|point| point.1);
+        let (low, high) =
+            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+        // A row on the very end has no length; a micron inside it has that of the side it runs along.
+        let room = high - low - 2.0;
+        let gaps = (room / spacing + 0.5).floor();
+        let (base, spacing) = if gaps < 1.0 {
+            (f64::midpoint(low, high), spacing.max(room + 4.0))
+        } else {
+            (low + 1.0, room / gaps)
+        };
+        Self::across(points, rings, direction, spacing, base)
+    }
+
+    fn across(
+        points: Vec<(f64, f64)>,
+        rings: Vec<std::ops::Range<usize>>,
+        (cosine, sine): (f64, f64),
+        spacing: f64,
+        base: f64,
+    ) -> Self {
         let mut crossings: Vec<Crossing> = Vec::with_capacity(points.len());
         for ring in &rings {
             let from = crossings.len() as u32;
             for side in ring.clone() {
                 let (a, b) = (points[side], points[if side + 1 == ring.end { ring.start } else { side + 1 }]);
-                each_row(a, b, spacing, |row, x| {
+                each_row((a.0, a.1 - base), (b.0, b.1 - base), spacing, |row, x| {
                     crossings.push(Crossing { x, row, side: side as u32, before: 0, after: 0 });
                 });
             }
@@ -136,7 +157,7 @@ impl Hatch {
                 .extend(row.chunks_exact(2).map(|pair| Span { left: end(pair[0]), right: end(pair[1]) }));
             rows.end_row();
         }
-        Self { cosine, sine, spacing, first, rows, crossings, points, rings }
+        Self { cosine, sine, spacing, base, first, rows, crossings, points, rings }
     }
 
     /// The number of the lowest row.
@@ -151,7 +172,7 @@ impl Hatch {
 
     /// The height of a row in the turned frame.
     pub fn height(&self, number: i64) -> f64 {
-        number as f64 * self.spacing
+        self.base + number as f64 * self.spacing
     }
 
     /// Joins spans to threads: each goes along a span, over to the next row, and back. `rows` holds for every row of
@@ -219,6 +240,21 @@ impl Intervals {
         let ends = row.map_or(&[][..], |row| &self.ends[row[0] as usize..row[1] as usize]);
         ends.chunks_exact(2).map(|pair| (pair[0], pair[1]))
     }
+}
+
+/// The points of all rings in the frame turned so that the direction is level, and where each ring lies in them.
+fn turned(region: &[Ring], (cosine, sine): (f64, f64)) -> (Vec<(f64, f64)>, Vec<std::ops::Range<usize>>) {
+    let mut points = Vec::with_capacity(region.iter().map(|ring| ring.0.len()).sum());
+    let mut rings = Vec::with_capacity(region.len());
+    for ring in region {
+        let start = points.len();
+        points.extend(ring.0.iter().map(|point| {
+            let (x, y) = (f64::from(point.x), f64::from(point.y));
+            (x * cosine + y * sine, y * cosine - x * sine)
+        }));
+        rings.push(start..points.len());
+    }
+    (points, rings)
 }
 
 /// Every row that a side crosses, with where: a row is crossed when exactly one end lies above it.

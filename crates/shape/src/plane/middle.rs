@@ -4,7 +4,7 @@
 //! triangulated; the middles of the inner sides of its triangles, joined from triangle to triangle, are its middle line
 //! (chordal axis: Prasad 1997).
 
-use super::{Offset, Point, Ring, boolean, offset};
+use super::{Offset, Point, Ring, boolean, islands, offset};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::BTreeMap;
 
@@ -35,7 +35,7 @@ pub fn thin_parts(region: &[Ring], core: &Offset, width: f64) -> Vec<MiddleLine>
     let rest = offset(&boolean::difference(region, &grown), -sliver);
     let pieces = offset(&rest, sliver);
     let mut lines = Vec::new();
-    for piece in islands(pieces) {
+    for piece in islands(&pieces) {
         if area(&piece) < width * width / 16.0 {
             continue;
         }
@@ -59,7 +59,7 @@ fn dab(piece: &[Ring]) -> Option<MiddleLine> {
     let far =
         ring.0.iter().max_by_key(|point| point.distance2(Point::new(centre.0 as i32, centre.1 as i32)))?;
     let (x, y) = (f64::from(far.x) - centre.0, f64::from(far.y) - centre.1);
-    let length = (x * x + y * y).sqrt();
+    let length = length((x, y));
     let area: f64 = piece.iter().map(|ring| ring.area2() as f64 / 2.0).sum();
     if length < 1.0 {
         return None;
@@ -68,20 +68,6 @@ fn dab(piece: &[Ring]) -> Option<MiddleLine> {
         Point::new((centre.0 + sign * x / 2.0).round() as i32, (centre.1 + sign * y / 2.0).round() as i32)
     };
     Some(MiddleLine { points: vec![end(-1.0), end(1.0)], widths: vec![area / length; 2] })
-}
-
-/// Each outside with the holes in it.
-fn islands(rings: Vec<Ring>) -> Vec<Vec<Ring>> {
-    let (outsides, holes): (Vec<Ring>, Vec<Ring>) = rings.into_iter().partition(|ring| ring.area2() > 0);
-    let mut islands: Vec<Vec<Ring>> = outsides.into_iter().map(|ring| vec![ring]).collect();
-    islands.sort_by_key(|island| island[0].area2());
-    for hole in holes {
-        let Some(inside) = hole.0.first() else { continue };
-        if let Some(island) = islands.iter_mut().find(|island| island[0].contains(*inside)) {
-            island.push(hole);
-        }
-    }
-    islands
 }
 
 /// The graph of the middle: nodes are middles of triangle sides or of triangles where three branches meet.
@@ -104,7 +90,7 @@ impl Axis {
     }
 
     fn distance(&self, one: usize, other: usize) -> f64 {
-        (self.places[one].0 - self.places[other].0).hypot(self.places[one].1 - self.places[other].1)
+        length((self.places[one].0 - self.places[other].0, self.places[one].1 - self.places[other].1))
     }
 }
 
@@ -273,5 +259,10 @@ fn distance_to_segment(from: (f64, f64), to: (f64, f64), place: (f64, f64)) -> f
     let length2 = along.0 * along.0 + along.1 * along.1;
     let share =
         if length2 > 0.0 { ((along.0 * reach.0 + along.1 * reach.1) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    (reach.0 - share * along.0).hypot(reach.1 - share * along.1)
+    length((reach.0 - share * along.0, reach.1 - share * along.1))
+}
+
+/// The length of a vector. (`f64::hypot` differs between platforms.)
+fn length((x, y): (f64, f64)) -> f64 {
+    (x * x + y * y).sqrt()
 }

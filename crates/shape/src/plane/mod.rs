@@ -3,6 +3,7 @@
 pub mod boolean;
 mod curves;
 pub mod hatch;
+mod islands;
 mod middle;
 mod offset;
 mod point;
@@ -10,6 +11,7 @@ mod ring;
 mod simplify;
 
 pub use curves::Offset;
+pub use islands::islands;
 pub use middle::{MiddleLine, thin_parts};
 pub use offset::{crossing, facing, offset, offset_with_loss, outside, united};
 pub use point::{Point, cross};

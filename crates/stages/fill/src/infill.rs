@@ -3,8 +3,8 @@
 use crate::Fill;
 use crate::source::Source;
 use crate::strand::{Strand, spacing};
-use crate::walls::Walls;
 use shape::plane::hatch::{End, Hatch, Intervals, Rows, Span};
+use shape::plane::{islands, offset};
 use skein::{Direction, Feature, Notes, Point, Ratio, Ring};
 
 /// The infill of one layer.
@@ -13,8 +13,8 @@ pub struct Job<'a> {
     pub fill: &'a Fill,
     /// The layer.
     pub source: &'a Source,
-    /// What its walls leave.
-    pub walls: &'a Walls,
+    /// Where the middles of its beads may go.
+    pub inside: &'a [Ring],
     /// The direction of the lines.
     pub direction: Direction,
     /// Which of the two usual directions and spacings it has, if one of them.
@@ -35,14 +35,16 @@ impl Job<'_> {
         let surroundings = match &self.surroundings {
             Some(around) if density < 1.0 => around,
             _ => {
-                let hatch = Hatch::new(&self.walls.inside, turned, step);
-                return self.solid(layer, &hatch, step, strands, notes);
+                for island in islands(self.inside) {
+                    self.solid(layer, &island, turned, step, strands, notes);
+                }
+                return;
             }
         };
         let solid = if self.fill.base_layers == 0 && self.fill.top_layers == 0 {
             Surface::default()
         } else {
-            let hatch = Hatch::new(&self.walls.inside, turned, step);
+            let hatch = Hatch::new(self.inside, turned, step);
             // Layers of the usual directions share the rows of those around them.
             let own: Vec<Intervals>;
             let around: Vec<&Intervals> = match self.turn {
@@ -63,7 +65,7 @@ impl Job<'_> {
         };
         if density > 0.0 {
             let apart = step / density;
-            let hatch = Hatch::new(&self.walls.inside, turned, apart);
+            let hatch = Hatch::new(self.inside, turned, apart);
             let mut rows = Rows::default();
             for (index, row) in hatch.rows().iter().enumerate() {
                 let height = hatch.height(hatch.first() + index as i64);
@@ -76,17 +78,26 @@ impl Job<'_> {
         }
     }
 
-    /// Fills everything, with as much clay as there is room.
-    fn solid(&self, layer: usize, hatch: &Hatch, step: f64, strands: &mut Vec<Strand>, notes: &mut Notes) {
+    /// Fills an island, with as much clay as there is room.
+    fn solid(
+        &self,
+        layer: usize,
+        island: &[Ring],
+        turned: (f64, f64),
+        step: f64,
+        strands: &mut Vec<Strand>,
+        notes: &mut Notes,
+    ) {
+        let hatch = Hatch::fitted(island, turned, step);
         let threads = hatch.threads(hatch.rows(), REACH * step);
         let length: f64 =
             threads.iter().flat_map(|points| points.windows(2)).map(|pair| pair[0].distance(pair[1])).sum();
         if length == 0.0 {
             return;
         }
-        // Lines at a fixed distance miss the outline by up to half a bead on each side; over a layer the clay that is
-        // missing or too much is shared out over its lines.
-        let room: f64 = self.walls.room.iter().map(Ring::area).sum::<f64>() - self.walls.filled;
+        // The middles of the beads reach to half a bead from what is beside them; the room is that much larger.
+        let reach = (0.5 - self.fill.overlap.f64()) * step;
+        let room: f64 = offset(island, reach).iter().map(Ring::area).sum();
         let wanted = room * 1e6 / (length * step);
         let flow = wanted.clamp(LEAST, MOST);
         if (flow - wanted).abs() > 1e-9 {

@@ -124,12 +124,12 @@ impl Fill {
         let surroundings = self.surroundings(sources, index);
         let solid = self.density == Ratio::ONE || surroundings.is_none();
         let mut strands: Vec<Strand> = source.middles.clone();
-        let walls = walls::of(source, self, solid, &mut strands);
+        let inside = walls::lay(source, self, solid, &mut strands);
         let direction = source.bridge.unwrap_or_else(|| self.direction(index));
         let usual = source.bridge.is_none()
             && sources.iter().all(|other| strand::spacing(&other.bead) == strand::spacing(&source.bead));
         let turn = usual.then_some(index % 2);
-        let job = infill::Job { fill: self, source, walls: &walls, direction, turn, surroundings };
+        let job = infill::Job { fill: self, source, inside: &inside, direction, turn, surroundings };
         job.run(index, &mut strands, notes);
         strand::sort_into_islands(&source.outlines, strands)
     }

@@ -6,27 +6,16 @@ use crate::strand::{Strand, share, spacing};
 use shape::plane::{Offset, all_simplified, facing, offset, offset_with_loss, thin_parts};
 use skein::{Feature, Ratio, Ring};
 
-/// What the walls leave for the infill.
-pub struct Walls {
-    /// The room inside the innermost wall, up to its flank.
-    pub room: Vec<Ring>,
-    /// The area in mm² of the beads that fill gaps in that room where no infill fits.
-    pub filled: f64,
-    /// Where the middles of infill beads may go.
-    pub inside: Vec<Ring>,
-}
-
 /// A wall keeps no corner nearer to a straight line than half a hundredth of a bead.
 const FINENESS: f64 = 200.0;
 
-/// Lays the walls of a layer.
-pub fn of(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) -> Walls {
+/// Lays the walls of a layer and gives the region in which the middles of infill beads may go.
+pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) -> Vec<Ring> {
     let step = spacing(&source.bead);
     let overlap = fill.overlap.f64() * step;
     if fill.walls == 0 {
         // Infill up to the outline; the flank of an infill bead ends there like that of a wall would.
-        let inside = if overlap > 0.0 { offset(&source.edges, overlap) } else { source.edges.clone() };
-        return Walls { room: source.outlines.clone(), filled: 0.0, inside };
+        return if overlap > 0.0 { offset(&source.edges, overlap) } else { source.edges.clone() };
     }
     let mut wall = source.edges.clone();
     let mut level = 0;
@@ -37,9 +26,8 @@ pub fn of(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) 
         // Where the next wall fits everywhere, nothing is too narrow for this one.
         let narrow = next.lost >= step;
         let room = if last || narrow { offset_with_loss(&wall, -step / 2.0) } else { Offset::default() };
-        let mut filled = 0.0;
         if narrow && (!last || solid) {
-            filled = fill_gaps(&room.rings, &next, step, source, strands);
+            fill_gaps(&room.rings, &next, step, source, strands);
         }
         let flows =
             if room.lost >= step { relief(&wall, step, source) } else { vec![Vec::new(); wall.len()] };
@@ -48,8 +36,7 @@ pub fn of(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) 
             strands.push(Strand { flows, ..Strand::wall(feature, ring) });
         }
         if last {
-            let inside = if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
-            return Walls { room: room.rings, filled, inside };
+            return if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
         }
         wall = all_simplified(&next.rings, step / FINENESS);
     }
@@ -68,20 +55,12 @@ fn relief(wall: &[Ring], step: f64, source: &Source) -> Vec<Vec<Ratio>> {
         .collect()
 }
 
-/// Lays beads on the middle of what is too narrow for the next wall; gives their area in mm².
-fn fill_gaps(room: &[Ring], next: &Offset, step: f64, source: &Source, strands: &mut Vec<Strand>) -> f64 {
-    let lines = thin_parts(room, next, step);
-    let mut filled = 0.0;
-    for line in lines {
+/// Lays beads on the middle of what is too narrow for the next wall.
+fn fill_gaps(room: &[Ring], next: &Offset, step: f64, source: &Source, strands: &mut Vec<Strand>) {
+    for line in thin_parts(room, next, step) {
         // A gap narrower than a quarter of a bead closes by itself when the clay is pressed.
-        if line.widths.iter().all(|width| *width < step / 4.0) {
-            continue;
+        if line.widths.iter().any(|width| *width >= step / 4.0) {
+            strands.push(Strand::middle(line, &source.bead));
         }
-        let strand = Strand::middle(line, &source.bead);
-        let stretches = strand.points.windows(2).zip(&strand.flows);
-        filled +=
-            stretches.map(|(pair, flow)| pair[0].distance(pair[1]) * flow.f64()).sum::<f64>() * step / 1e6;
-        strands.push(strand);
     }
-    filled
 }
