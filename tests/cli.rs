@@ -293,7 +293,6 @@ fn a_refused_part_gives_one_and_a_message_and_leaves_no_file() {
 }
 
 /// Promise 4: a message names the file, so that a batch of parts can be searched for it.
-// BUG in cli: what a stage refuses is said by the stage, and the part is not named.
 #[test]
 fn a_refusal_names_the_part_whoever_refuses() {
     for (what, name, bytes, words, _) in
@@ -302,7 +301,7 @@ fn a_refusal_names_the_part_whoever_refuses() {
         let room = Room::new();
         room.put(name, bytes);
         let ran = room.run(&[&["slice", name], words].concat());
-        assert!(ran.err.contains(name), "{what}: {}", ran.err);
+        assert!(ran.err.starts_with(&format!("error: {name}: ")), "{what}: {}", ran.err);
     }
 }
 
@@ -342,7 +341,6 @@ fn a_mistake_in_a_profile_has_its_line_and_column() {
     }
 }
 
-// BUG in clayforge::profile: an error of the TOML reader has no hint.
 #[test]
 fn a_profile_that_is_no_toml_has_its_place_and_a_hint() {
     for (text, place) in [
@@ -454,6 +452,8 @@ fn piped() -> Vec<(&'static str, Vec<u8>, Vec<String>)> {
         ("cube.stl", example("cube"), Vec::new()),
         ("pair.stl", example("pair"), Vec::new()),
         ("vase.stl", example("vase"), Vec::new()),
+        // A speed of more decimals than the header has.
+        ("slow.stl", example("cube"), vec!["--set".to_owned(), "speed.feed=33.3333".to_owned()]),
         ("block.stl", stl(&cuboid([0.0; 3], [20.0, 14.0, 2.0])), fine()),
         ("tube.stl", stl(&tube(10.0, 6.0, 1.0)), fine()),
         ("words.stl", text_stl(&tube(8.0, 5.0, 1.0)).into_bytes(), fine()),
@@ -530,6 +530,7 @@ fn the_report_has_the_keys_that_scripts_read() {
     for key in ["layers", "threads", "travels"] {
         assert!(report[key].as_u64().is_some_and(|count| count > 0), "{key}: {}", report[key]);
     }
+    assert_eq!(report["spirals"], 0);
     for key in ["extruded_mm", "travel_mm", "volume_mm3", "mass_g", "time_s"] {
         assert!(report[key].as_f64().is_some_and(|number| number > 0.0), "{key}: {}", report[key]);
     }
@@ -546,6 +547,8 @@ fn the_report_has_the_keys_that_scripts_read() {
             warning["stage"].is_string() && warning["text"].is_string() && warning.get("layer").is_some()
         );
     }
+    // The profile is about no layer.
+    assert!(warnings.iter().any(|warning| warning["stage"] == "profile" && warning["layer"].is_null()));
 }
 
 // Files.
@@ -724,6 +727,52 @@ fn a_profile_that_is_shown_reads_back() {
     room.run(&["profile", "check", "new.toml"]).done();
     let schema: Json = serde_json::from_slice(&room.run(&["profile", "schema"]).done().out).expect("JSON");
     assert!(schema["properties"]["fill"]["properties"]["walls"].is_object(), "{schema:#}");
+}
+
+/// A file here comes before one of the config folder, and that before a built-in one; `.toml` may stand or not.
+#[test]
+fn a_profile_is_looked_for_here_then_in_the_config_folder_then_in_the_program() {
+    let room = Room::new();
+    let density = |name: &str| {
+        let shown = room.run(&["profile", "show", name]).done().out();
+        let (_, fill) = shown.split_once("[fill]").expect("a section");
+        fill.lines().find(|line| line.starts_with("density")).unwrap_or("").to_owned()
+    };
+    assert_eq!(["clay", "clay.toml"].map(density), ["density = 0.2"; 2]);
+    room.put("cube.stl", example("cube"));
+    let slice = |name| room.run(&["slice", "cube.stl", "-o", "-", "--quiet", "--profile", name]).done().out;
+    let built_in = slice("clay");
+    assert!(slice("clay.toml") == built_in);
+    let own = "inherits = \"clay\"\nfill.density = ";
+    fs::create_dir_all(room.path("config/clayforge")).expect("a new folder");
+    room.put("config/clayforge/clay.toml", format!("{own}0.5\n"));
+    assert_eq!(["clay", "clay.toml"].map(density), ["density = 0.5"; 2]);
+    assert!(slice("clay.toml") == slice("clay") && slice("clay.toml") != built_in);
+    room.put("clay.toml", format!("{own}0.75\n"));
+    assert_eq!(["clay", "clay.toml"].map(density), ["density = 0.75"; 2]);
+    let ran = room.run(&["slice", "cube.stl", "--profile", "nowhere/clay.toml"]);
+    assert_message(&ran.err, &["nowhere/clay.toml", "profile list"]);
+}
+
+/// Nothing is said twice at the start. A line with E at the end holds for absolute E, too: it counts anew.
+#[test]
+fn the_profiles_of_the_program_say_every_command_of_the_start_once_and_never_go_down() {
+    let room = Room::new();
+    room.put("cube.stl", example("cube"));
+    for name in ["clay", "generic-ram", "generic-auger"] {
+        let text = room.run(&["slice", "cube.stl", "-o", "-", "--quiet", "--profile", name]).done().out();
+        let commands: Vec<&str> = text.lines().filter(|line| !line.starts_with(';')).collect();
+        let start: Vec<&str> = commands.iter().copied().take_while(|line| !line.starts_with("G1")).collect();
+        assert_eq!(start, ["G90", "G21", "M302 P1", "G28", "M83", "G92 E0"], "{name}");
+        let end =
+            commands.iter().rposition(|line| line.contains(" X") || line.contains(" Y")).expect("moves");
+        let relief: &[&str] = match name {
+            "generic-ram" => &["G92 E0", "G1 E-0.2 F6"],
+            "generic-auger" => &["G92 E0", "G1 E-5 F300"],
+            _ => &[],
+        };
+        assert_eq!(commands[end + 1..], [relief, &["G91", "G1 Z10 F600", "G90", "M84"]].concat(), "{name}");
+    }
 }
 
 #[test]

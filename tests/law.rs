@@ -8,8 +8,8 @@ use proptest::option;
 use proptest::prelude::*;
 use shape::{Bounds, Point, Point3, Ring};
 use skein::{
-    Choice, EUnit, Facts, Field, Kind, Line, Mark, Move, Reader, RotatedLoopLayer, Section, Settings, Side,
-    Signature, Skein, Slices, Span, Tag, spans,
+    Choice, EUnit, Facts, Field, Kind, Line, Mark, Move, Reader, RotatedLoopLayer, Section, Setting,
+    Settings, Side, Signature, Skein, Slices, Span, Tag, Value, spans,
 };
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Display};
@@ -161,8 +161,9 @@ fn e_unit() -> impl Strategy<Value = EUnit> {
 }
 
 fn facts() -> impl Strategy<Value = Facts> {
-    // Speeds of the header are whole microns a second.
-    let speed = || (1..=Feed::LIMIT / 60).prop_map(|speed| Feed::new(speed * 60).expect("within the limit"));
+    // Whatever a profile says: a setting has no more decimals than the header.
+    let value = prop_oneof![0.001..1000.0, 0.001..f64::from(Feed::LIMIT / 60_000)];
+    let speed = value.prop_map(|value| Setting::read(&Value::Number(value)).expect("within the limit"));
     let lengths = (
         option::of(length()),
         option::of(length()),
@@ -174,8 +175,8 @@ fn facts() -> impl Strategy<Value = Facts> {
         option::of(Just(3u32)),
         option::of(e_unit()),
         option::of(prop::sample::select(Section::ALL)),
-        option::of(speed()),
-        option::of(speed()),
+        option::of(speed.clone()),
+        option::of(speed),
     );
     (lengths, rest).prop_map(|(lengths, rest)| Facts {
         layer_height: lengths.0,

@@ -93,6 +93,14 @@ impl Habits {
         }
     }
 
+    /// Does as [`watch_move`](Self::watch_move) with a readable `G1` that has E and no Z.
+    #[inline(always)]
+    pub(crate) fn watch_stroke(&mut self, index: usize, class: Class) {
+        if matches!(class, Class::Travel | Class::DiagonalTravel | Class::Vertical) {
+            self.silent_e.add(index);
+        }
+    }
+
     /// Watches a line that moves nothing.
     #[inline]
     pub(crate) fn watch_still(&mut self, index: usize, line: &Line) {

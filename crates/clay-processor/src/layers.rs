@@ -28,7 +28,7 @@ pub(crate) struct Mark {
 
 impl Layers {
     /// A line printed at `height`. Returns whether it goes on with a layer.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn flat(&mut self, index: usize, height: Option<f64>) -> bool {
         if let Some(group) = &mut self.open
             && is_level(group.height, height)
@@ -48,6 +48,7 @@ impl Layers {
     }
 
     /// Ends the layer that grows and lets `group` grow.
+    #[inline(never)]
     pub(crate) fn start(&mut self, group: Group) {
         self.end();
         self.open = Some(group);

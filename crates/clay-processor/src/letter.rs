@@ -77,6 +77,24 @@ impl Letter {
         }
     }
 
+    /// Does as [`feed`](Self::feed) with a `G1` that has E and no Z, or knows its movement.
+    #[inline(always)]
+    pub(crate) fn feed_stroke(&mut self, index: usize, prints: bool) {
+        if self.spiral.is_some() {
+            self.end_spiral();
+        }
+        if let Some(block) = &mut self.block {
+            if block.lines == 0 {
+                block.first = index;
+                block.first_prints = prints;
+            }
+            block.last = index;
+            block.last_prints = prints;
+            block.prints |= prints;
+            block.lines += 1;
+        }
+    }
+
     pub(crate) fn finish(&mut self) {
         self.end_block();
         self.end_spiral();
@@ -87,20 +105,7 @@ impl Letter {
     #[inline]
     fn linear(&mut self, index: usize, line: &Line, prints: bool) {
         let Some(height) = line.words.get(b'Z') else {
-            if self.spiral.is_some() {
-                self.end_spiral();
-            }
-            if let Some(block) = &mut self.block {
-                if block.lines == 0 {
-                    block.first = index;
-                    block.first_prints = prints;
-                }
-                block.last = index;
-                block.last_prints = prints;
-                block.prints |= prints;
-                block.lines += 1;
-            }
-            return;
+            return self.feed_stroke(index, prints);
         };
         self.end_block();
         self.block = Some(Block {
@@ -169,6 +174,7 @@ impl Letter {
         self.model.layers.push(layer);
     }
 
+    #[inline(never)]
     fn end_spiral(&mut self) {
         if let Some(climb) = self.spiral.take().filter(|climb| climb.lines >= 2) {
             let spiral = Run { start_index: climb.first, end_index: climb.last, height: Some(climb.height) };

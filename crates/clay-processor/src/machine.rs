@@ -1,6 +1,6 @@
 //! The machine model: what the printer does.
 
-use gcode::Line;
+use gcode::{Line, Words};
 
 use crate::habits::Count;
 use crate::motion::{Action, Class, Motion, Move};
@@ -58,6 +58,14 @@ impl Machine {
         }
     }
 
+    /// Does as [`feed`](Self::feed) with a straight move.
+    #[inline(always)]
+    pub(crate) fn feed_straight(&mut self, index: usize, words: &Words) -> Class {
+        let step = self.motion.go_straight(words);
+        self.take(index, &step);
+        step.class
+    }
+
     pub(crate) fn finish(&mut self) {
         self.spirals.finish();
         self.model.layers = std::mem::take(&mut self.spirals.layers.found);
@@ -65,7 +73,7 @@ impl Machine {
         self.model.max_height = self.max_printed.unwrap_or(0.0);
     }
 
-    #[inline]
+    #[inline(always)]
     fn take(&mut self, index: usize, step: &Move) {
         match step.class {
             Class::Flat => {
@@ -106,15 +114,24 @@ impl Machine {
     fn print(&mut self, step: &Move) {
         self.extruding_lines += 1;
         if let Some(height) = step.to {
-            self.max_printed = Some(self.max_printed.map_or(height, |highest| highest.max(height)));
+            if self.max_printed.is_none_or(|highest| height > highest) {
+                self.max_printed = Some(height);
+            }
         }
-        if let Some(gap) = self.gap.take() {
-            self.interruptions.count += 1;
-            self.interruptions.length += gap;
-            self.interruptions.longest = self.interruptions.longest.max(gap);
+        if let Some(gap) = self.gap {
+            self.close_gap(gap);
         }
     }
 
+    #[inline(never)]
+    fn close_gap(&mut self, gap: f64) {
+        self.gap = None;
+        self.interruptions.count += 1;
+        self.interruptions.length += gap;
+        self.interruptions.longest = self.interruptions.longest.max(gap);
+    }
+
+    #[inline(never)]
     fn go(&mut self, step: &Move) {
         self.spirals.interrupt();
         if self.extruding_lines > 0 {

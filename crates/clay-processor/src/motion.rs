@@ -117,9 +117,9 @@ impl Motion {
     pub(crate) fn obey(&mut self, line: &Line) -> Action {
         let Some(command) = line.command else { return Action::Nothing };
         match command {
-            G0 | G1 => Action::Move(self.advance(&line.words, None)),
-            G2 => Action::Move(self.advance(&line.words, Some(Turn::Clockwise))),
-            G3 => Action::Move(self.advance(&line.words, Some(Turn::Counter))),
+            G0 | G1 => Action::Move(self.go_straight(&line.words)),
+            G2 => Action::Move(self.go_round(&line.words, Turn::Clockwise)),
+            G3 => Action::Move(self.go_round(&line.words, Turn::Counter)),
             other => self.set(other, &line.words),
         }
     }
@@ -175,8 +175,21 @@ impl Motion {
         }
     }
 
-    #[inline]
-    fn advance(&mut self, words: &Words, turn: Option<Turn>) -> Move {
+    /// Moves as `G0` and `G1` do.
+    #[inline(always)]
+    pub(crate) fn go_straight(&mut self, words: &Words) -> Move {
+        self.go(words, |x, y| x * x + y * y)
+    }
+
+    #[inline(never)]
+    fn go_round(&mut self, words: &Words, turn: Turn) -> Move {
+        let scale = self.scale;
+        self.go(words, |x, y| arc_length((x, y), words, scale, turn).powi(2))
+    }
+
+    /// Moves by a way that is as long, squared, as `flat_squared` says of the steps in X and Y.
+    #[inline(always)]
+    fn go(&mut self, words: &Words, flat_squared: impl FnOnce(f64, f64) -> f64) -> Move {
         let (scale, relative) = (self.scale, self.relative);
         let from = self.height();
         let x = self.x.step(words.get(b'X'), scale, relative);
@@ -194,14 +207,7 @@ impl Motion {
                 clay
             }
         };
-        let flat_squared = match turn {
-            None => x.by * x.by + y.by * y.by,
-            Some(turn) => {
-                let length = arc_length((x.by, y.by), words, scale, turn);
-                length * length
-            }
-        };
-
+        let flat_squared = flat_squared(x.by, y.by);
         let goes = flat_squared > EPSILON * EPSILON || x.becomes_known || y.becomes_known;
         let climbs = z.by.abs() > EPSILON_Z || z.becomes_known;
         let class = match (goes, climbs, clay > EPSILON) {
@@ -224,7 +230,7 @@ impl Motion {
 }
 
 impl Axis {
-    #[inline]
+    #[inline(always)]
     fn step(&mut self, word: Option<f64>, scale: f64, relative: bool) -> Step {
         let Some(value) = word else { return Step::default() };
         let value = value * scale;

@@ -1,6 +1,6 @@
 //! Feeds both models line by line.
 
-use gcode::{Line, find_byte, without_bom, without_cr};
+use gcode::{Command, Kind, Line, find_byte, without_bom, without_cr};
 
 use crate::comments::Comments;
 use crate::habits::Habits;
@@ -67,16 +67,19 @@ impl Processor {
 
     /// Takes the next piece of the file. It may end anywhere.
     pub fn push(&mut self, text: &[u8]) {
-        let mut rest = text;
-        while let Some(end) = find_byte(b'\n', rest) {
-            let (line, after) = rest.split_at(end);
-            rest = after.get(1..).unwrap_or_default();
-            if self.unfinished.is_empty() {
+        let mut rest = self.take_to_end(text);
+        loop {
+            let length = if let Some(length) = self.line.read_plain(rest) {
+                self.follow();
+                length
+            } else if let Some(end) = find_byte(b'\n', rest) {
+                let (line, _) = rest.split_at(end);
                 self.take(without_cr(line));
+                end + 1
             } else {
-                self.unfinished.extend_from_slice(line);
-                self.take_unfinished();
-            }
+                break;
+            };
+            rest = rest.get(length..).unwrap_or_default();
         }
         self.unfinished.extend_from_slice(rest);
     }
@@ -122,6 +125,18 @@ impl Processor {
         }
     }
 
+    /// Takes the line that is unfinished, if `text` ends it; returns what is behind it.
+    fn take_to_end<'a>(&mut self, text: &'a [u8]) -> &'a [u8] {
+        if self.unfinished.is_empty() {
+            return text;
+        }
+        let Some(end) = find_byte(b'\n', text) else { return text };
+        let (line, rest) = text.split_at(end);
+        self.unfinished.extend_from_slice(line);
+        self.take_unfinished();
+        rest.get(1..).unwrap_or_default()
+    }
+
     fn take_unfinished(&mut self) {
         let mut line = std::mem::take(&mut self.unfinished);
         self.take(without_cr(&line));
@@ -133,6 +148,32 @@ impl Processor {
     fn take(&mut self, text: &[u8]) {
         let text = if self.index == 0 { without_bom(text) } else { text };
         self.line.read(text);
+        self.follow();
+    }
+
+    /// Feeds the models with the line that was read.
+    #[inline(always)]
+    fn follow(&mut self) {
+        if is_stroke(&self.line) {
+            self.follow_stroke();
+        } else {
+            self.follow_any();
+        }
+    }
+
+    /// Does what [`follow_any`](Self::follow_any) does, for a line that prints where the nozzle is high already: nearly
+    /// every line of a file, and most of what the models ask of a line has one answer.
+    #[inline(always)]
+    fn follow_stroke(&mut self) {
+        self.comments.feed(Kind::Code);
+        let class = self.machine.feed_straight(self.index, &self.line.words);
+        self.letter.feed_stroke(self.index, matches!(class, Class::Flat | Class::Slope));
+        self.habits.watch_stroke(self.index, class);
+        self.index += 1;
+    }
+
+    #[inline(never)]
+    fn follow_any(&mut self) {
         self.comments.feed(self.line.kind);
         let class = self.machine.feed(self.index, &self.line);
         let prints = matches!(class, Some(Class::Flat | Class::Slope));
@@ -143,4 +184,15 @@ impl Processor {
         }
         self.index += 1;
     }
+}
+
+/// Whether `line` is a readable `G1` that has E and no Z.
+#[inline(always)]
+fn is_stroke(line: &Line) -> bool {
+    let words = &line.words;
+    line.command == Some(Command::g(1))
+        && words.has(b'E')
+        && !words.has(b'Z')
+        && !words.has_bare()
+        && !line.unreadable
 }

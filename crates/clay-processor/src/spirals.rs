@@ -42,7 +42,7 @@ struct Climb {
 
 impl Spirals {
     /// A line printed at `height`, with the `length` in XY. Returns whether it goes on with a layer.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn flat(&mut self, index: usize, height: Option<f64>, length: impl FnOnce() -> f64) -> bool {
         let goes_on = self.layers.flat(index, height);
         if let Some(climb) = &mut self.climb {

@@ -185,8 +185,8 @@ fn class_of(feature: Feature) -> &'static str {
 }
 
 const STYLE: &str = "path{fill:none;stroke-linecap:round;stroke-linejoin:round}\
-.clay{fill:#c98;stroke:#643;fill-rule:evenodd;vector-effect:non-scaling-stroke;stroke-width:1px}\
-.part{stroke:#333;vector-effect:non-scaling-stroke;stroke-width:.7px}\
+.clay{fill:#c98;stroke:#643;fill-rule:evenodd}\
+.part{stroke:#333}\
 .edge,.loop,.infill,.middle{stroke-opacity:.55}\
 .edge{stroke:#a4472f}.loop{stroke:#d98f4e}.infill{stroke:#5b8f8a}.middle{stroke:#7a55a0}\
 .travel{stroke:#e00000}\
@@ -217,18 +217,21 @@ fn sheet(pictures: impl Fn(Drawing) -> (usize, Vec<Picture>), drawing: Drawing) 
     let rows = pictures.len().div_ceil(columns).max(1);
     let (width, depth) = (cell_width * columns as f64 + gap, cell_depth * rows as f64 + gap + letter * 1.6);
     let pixels = 1600.0;
+    // Outlines are a pixel wide, in millimetres: not every viewer knows strokes that do not scale.
+    let line = width / pixels;
     let mut svg = String::new();
     // Writing to a string cannot fail.
     let _ = writeln!(
         svg,
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width:.3} {depth:.3}\" width=\"{pixels:.0}\" \
-         height=\"{:.0}\">\n<style>{STYLE}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fffdf8\"/>",
+         height=\"{:.0}\" stroke-width=\"{line:.4}\">\n<style>{STYLE}</style>\n<rect width=\"100%\" height=\"100%\" fill=\"#fffdf8\"/>",
         (pixels * depth / width).ceil(),
     );
+    let layers = if count == 1 { "layer" } else { "layers" };
     let title = if pictures.len() == count {
-        format!("{count} layers")
+        format!("{count} {layers}")
     } else {
-        format!("{} of {count} layers", pictures.len())
+        format!("{} of {count} {layers}", pictures.len())
     };
     let _ = writeln!(
         svg,

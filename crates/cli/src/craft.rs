@@ -22,7 +22,8 @@ pub fn run(craft: &Craft) -> Done {
     let mut out = Output::open(craft.output.as_deref().unwrap_or(Path::new("-")))?;
     let mut notes = Notes::default();
     let done = clayforge::craft(&craft.stage, &text, &profile, &mut notes, &mut |piece| out.write(piece));
-    done.map_err(|error| out.stop(error))?;
+    let name = if input.as_os_str() == "-" { Path::new("standard input") } else { input };
+    done.map_err(|error| out.stop(report::about(name, error)))?;
     out.finish()?;
     report::notes(&notes);
     Ok(())

@@ -14,8 +14,6 @@ use args::{Arguments, Command};
 use clap::Parser;
 use std::process::ExitCode;
 
-/// Many short-lived lists on several threads: see docs/performance.md.
-
 fn main() -> ExitCode {
     let arguments = Arguments::parse();
     let done = match &arguments.command {

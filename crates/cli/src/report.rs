@@ -1,6 +1,6 @@
 //! What people read: errors, the summary, exit codes.
 
-use clayforge::{Error, Notes, Sliced};
+use clayforge::{Error, Notes, Sliced, stage};
 use serde_json::json;
 use std::fmt::Write as _;
 use std::io::{self, IsTerminal, Write};
@@ -137,6 +137,15 @@ pub fn json(sliced: &Sliced, stages: &[(&'static str, Duration)]) -> String {
         "warnings": warnings,
     });
     format!("{report:#}\n")
+}
+
+/// An error with the name of the input in front, so that a batch can be searched for it: when a stage refuses it, or
+/// when the error names nobody. What a profile or another file is to blame for stays with that file.
+pub fn about(input: &Path, mut error: Error) -> Error {
+    if stage(&error.what).is_some() {
+        error.what = format!("{}: {}", input.display(), error.what);
+    }
+    error.said_by(&input.display().to_string())
 }
 
 /// An error of the operating system about a file, in words.

@@ -54,7 +54,7 @@ pub fn run(slice: &Slice) -> Done {
     };
     let done = clayforge::slice(part, &profile, slice.until.as_deref(), &mut watch, &mut sink);
     progress.finish_and_clear();
-    let sliced = done.map_err(|error| out.stop(error.said_by(&slice.part.display().to_string())))?;
+    let sliced = done.map_err(|error| out.stop(report::about(&slice.part, error)))?;
     if let (Some(dump), Some(Form::Gcode)) = (&mut dump, sliced.form) {
         dump.file(&finished)?;
     }

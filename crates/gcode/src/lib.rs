@@ -23,6 +23,8 @@
 mod line;
 mod lines;
 mod number;
+mod plain;
+mod short;
 mod token;
 mod word;
 

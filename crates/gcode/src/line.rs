@@ -44,6 +44,10 @@ impl Line {
         self.unreadable = false;
         self.words.clear();
 
+        // Nearly all that is no move is a comment, and is told by its first byte.
+        if text.first() == Some(&b';') {
+            return self.kind = Kind::Comment;
+        }
         let mut tokens = Tokens::new(text);
         if let Some((letter, value)) = tokens.plain_word()
             && letter != b'N'

@@ -1,14 +1,25 @@
 //! Reads a decimal number as G-code writes it: `12`, `-.5`, `3.`, `+2`. There are no exponents, since `1E5` is a one and
 //! the word `E5`.
 
+use crate::short::read_short;
+
 /// Powers of ten that a double holds exactly; dividing by one of them rounds once.
-const TENS: [f64; 16] =
+pub(crate) const TENS: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// The number that begins at `start` of `text`, to the nearest double, and where it ends. Nothing if there is no digit,
 /// or if the number is too large for a double.
 #[inline]
 pub fn read_number(text: &[u8], start: usize) -> Option<(f64, usize)> {
+    let negative = text.get(start) == Some(&b'-');
+    match read_short(text, start.wrapping_add(usize::from(negative))) {
+        Some((size, end)) => Some((if negative { -size } else { size }, end)),
+        None => read_any(text, start),
+    }
+}
+
+/// Does what [`read_number`] does, digit by digit.
+fn read_any(text: &[u8], start: usize) -> Option<(f64, usize)> {
     let mut index = start;
     let sign = *text.get(index)?;
     let negative = sign == b'-';

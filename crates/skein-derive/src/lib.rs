@@ -4,7 +4,10 @@
 use proc_macro::TokenStream;
 use proc_macro2::TokenStream as Tokens;
 use quote::quote;
-use syn::{Attribute, Data, DeriveInput, Error, Expr, Fields, Ident, Lit, LitStr, Meta, parse_macro_input, spanned::Spanned};
+use syn::{
+    Attribute, Data, DeriveInput, Error, Expr, Fields, Ident, Lit, LitStr, Meta, parse_macro_input,
+    spanned::Spanned,
+};
 
 /// Makes a struct of settings describe itself.
 #[proc_macro_derive(Settings, attributes(setting))]
@@ -29,14 +32,17 @@ fn expand_settings(input: &DeriveInput) -> Result<Tokens, Error> {
     let fields = match &data.fields {
         Fields::Named(fields) => &fields.named,
         Fields::Unit => &empty,
-        Fields::Unnamed(_) => return Err(Error::new(input.span(), "settings are a struct with named fields")),
+        Fields::Unnamed(_) => {
+            return Err(Error::new(input.span(), "settings are a struct with named fields"));
+        }
     };
     let (mut describe, mut default, mut set, mut values) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     for field in fields {
         let ident = field.ident.as_ref().ok_or_else(|| Error::new(field.span(), "a setting has a name"))?;
         let ty = &field.ty;
         let key = LitStr::new(&ident.to_string(), ident.span());
-        let about = doc(&field.attrs).ok_or_else(|| Error::new(field.span(), "a setting has a doc comment: it is the manual"))?;
+        let about = doc(&field.attrs)
+            .ok_or_else(|| Error::new(field.span(), "a setting has a doc comment: it is the manual"))?;
         let said = Said::read(&field.attrs, field.span())?;
         let (min, max, unit) = (optional(&said.min), optional(&said.max), &said.unit);
         let value = match &said.default {
@@ -65,7 +71,11 @@ fn expand_settings(input: &DeriveInput) -> Result<Tokens, Error> {
         set.push(quote!(#key => { self.#ident = ::skein::settings::read_within::<#ty>(value, #min, #max, #unit)?; Ok(()) }));
         values.push(quote!((#key, <#ty as ::skein::Setting>::show(&self.#ident))));
     }
-    let (unused_default, unused_value) = if fields.is_empty() { (quote!(let _ = &default;), quote!(let _ = value;)) } else { (quote!(), quote!()) };
+    let (unused_default, unused_value) = if fields.is_empty() {
+        (quote!(let _ = &default;), quote!(let _ = value;))
+    } else {
+        (quote!(), quote!())
+    };
     Ok(quote! {
         impl ::core::default::Default for #name {
             fn default() -> Self {
@@ -103,7 +113,8 @@ struct Said {
 impl Said {
     fn read(attributes: &[Attribute], place: proc_macro2::Span) -> Result<Self, Error> {
         let attribute = attributes.iter().find(|attribute| attribute.path().is_ident("setting"));
-        let attribute = attribute.ok_or_else(|| Error::new(place, "a setting has a default: #[setting(default = …)]"))?;
+        let attribute =
+            attribute.ok_or_else(|| Error::new(place, "a setting has a default: #[setting(default = …)]"))?;
         let (mut default, mut min, mut max, mut unit) = (None, None, None, None);
         attribute.parse_nested_meta(|meta| {
             let value = meta.value()?;
@@ -138,7 +149,8 @@ fn expand_choice(input: &DeriveInput) -> Result<Tokens, Error> {
         if !matches!(variant.fields, Fields::Unit) {
             return Err(Error::new(variant.span(), "a choice is an enum of plain words"));
         }
-        let about = doc(&variant.attrs).ok_or_else(|| Error::new(variant.span(), "a choice says what it means in a doc comment"))?;
+        let about = doc(&variant.attrs)
+            .ok_or_else(|| Error::new(variant.span(), "a choice says what it means in a doc comment"))?;
         let word = kebab(&variant.ident.to_string());
         let ident = &variant.ident;
         words.push(quote!((#word, #about)));

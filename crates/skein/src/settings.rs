@@ -210,7 +210,8 @@ number_setting! {
     Micron: Micron::from_mm, |it| it.mm();
     Ratio: Ratio::from_f64, |it| it.f64();
     Angle: Angle::from_degrees, |it| it.degrees();
-    Feed: Feed::from_mm_per_s, |it| it.mm_per_s();
+    // Whole microns a second, as many decimals as a header has: what the moves say and what the header says is the same.
+    Feed: |speed| Feed::from_mm_per_s((speed * 1000.0).round() / 1000.0), |it| it.mm_per_s();
 }
 
 impl Setting for bool {
@@ -277,24 +278,26 @@ pub(crate) trait ReadValue: Setting {
 }
 impl<T: Setting> ReadValue for T {}
 
-/// For the derive: reads a value and checks its bounds.
+/// For the derive: reads a value and checks its bounds. A number beyond them hears of them even when the type could not
+/// hold it either: they say more.
 pub fn read_within<T: Setting>(
     value: &Value,
     min: Option<f64>,
     max: Option<f64>,
     unit: &str,
 ) -> Result<T, SettingError> {
-    let read = T::read_value(value).map_err(SettingError::Refused)?;
     let space = if unit.is_empty() { "" } else { " " };
-    for number in value.numbers() {
-        if let Some(min) = min.filter(|min| number < *min) {
-            return Err(SettingError::Refused(format!("is below {min}{space}{unit}")));
-        }
-        if let Some(max) = max.filter(|max| number > *max) {
-            return Err(SettingError::Refused(format!("is above {max}{space}{unit}")));
-        }
+    let beyond = value.numbers().into_iter().find_map(|number| {
+        let below = min.filter(|min| number < *min).map(|min| format!("is below {min}{space}{unit}"));
+        below.or_else(|| max.filter(|max| number > *max).map(|max| format!("is above {max}{space}{unit}")))
+    });
+    let is_number = matches!((T::KIND, value), (Kind::Number | Kind::Count, Value::Number(_)));
+    match (T::read_value(value), beyond) {
+        (Ok(read), None) => Ok(read),
+        (Err(why), beyond) => Err(beyond.filter(|_| is_number).unwrap_or(why)),
+        (Ok(_), Some(beyond)) => Err(beyond),
     }
-    Ok(read)
+    .map_err(SettingError::Refused)
 }
 
 /// For the derive: the default of a setting.

@@ -62,7 +62,8 @@ impl Feed {
         NonZeroU32::new(microns_per_minute).filter(|feed| feed.get() <= Self::LIMIT).map(Self)
     }
 
-    /// The nearest feed to millimetres per second.
+    /// The nearest feed to millimetres per second. One that shall stand in a header, which has three decimals, must be
+    /// rounded to these before; settings are.
     pub fn from_mm_per_s(value: f64) -> Option<Self> {
         round_within(value * 60_000.0, f64::from(Self::LIMIT))
             .and_then(|feed| u32::try_from(feed).ok())

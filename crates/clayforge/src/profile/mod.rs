@@ -263,7 +263,6 @@ impl Profile {
                 match keys.set(name, value) {
                     Ok(()) => Ok(()),
                     Err(SettingError::Refused(why)) => {
-                        let why = out_of_bounds(&keys.fields(), name, value).unwrap_or(why);
                         Err(Error::new(format!("{key} = {value} {why}"))
                             .hint(format!("clayforge explain {key}")))
                     }
@@ -383,16 +382,6 @@ fn located(mut error: Error, name: &str, place: &Place) -> Error {
     };
     error.place = Place::Whole;
     error
-}
-
-/// Which bound a number is beyond. A type may refuse it before its bounds are looked at; the bound says more.
-fn out_of_bounds(fields: &[Field], name: &str, value: &Value) -> Option<String> {
-    let field = fields.iter().find(|field| field.name == name)?;
-    let Value::Number(number) = value else { return None };
-    let space = if field.unit.is_empty() { "" } else { " " };
-    let bound = |word: &str, bound: f64| format!("is {word} {bound}{space}{}", field.unit);
-    let below = field.min.filter(|min| number < min).map(|min| bound("below", min));
-    below.or_else(|| field.max.filter(|max| number > max).map(|max| bound("above", max)))
 }
 
 fn sequence_of(value: &Value) -> Result<Vec<&'static str>, Error> {

@@ -24,7 +24,10 @@ impl<'a> Text<'a> {
         let document = Document::parse(source.text.as_str()).map_err(|error| {
             let place = error.span().map_or(Place::Whole, |span| place(&source.text, span.start));
             let message = error.message().trim().replace('\n', ", ");
-            located(Error::new(message), &source.name, &place)
+            let error = Error::new(message).hint(
+                "a profile is TOML: lines like `walls = 2` below a line like `[fill]`, texts in quotes",
+            );
+            located(error, &source.name, &place)
         })?;
         Ok(Self { source, document })
     }

@@ -44,11 +44,15 @@ pub fn crossing(loops: &[Ring]) -> bool {
     !curves.crossings().is_empty()
 }
 
-/// The raw curve in whole microns, for comparing kernels.
+/// The raw curve in whole microns, with every side, for comparing kernels.
 #[cfg(test)]
 pub(super) fn raw_for_test(region: &[Ring], distance: f64) -> Vec<Ring> {
     let mut curves = Curves::default();
-    region.iter().for_each(|ring| curves.push_offset(&ring.0, -distance));
+    for ring in region {
+        if let Some(sides) = sides(&ring.0, -distance) {
+            curves.push_sides(&sides, 0, -distance);
+        }
+    }
     curves.raw()
 }
 
@@ -59,7 +63,13 @@ impl Curves {
     /// otherwise the curve goes to the end of one offset side, through the corner itself and on to the start of the
     /// next, which gives what is too narrow a winding number of zero or less.
     fn push_offset(&mut self, ring: &[Point], distance: f64) {
-        let Some((sides, first)) = sides(ring, distance) else { return };
+        if let Some(mut sides) = sides(ring, distance) {
+            let first = leave_out_swallowed(&mut sides, distance);
+            self.push_sides(&sides, first, distance);
+        }
+    }
+
+    fn push_sides(&mut self, sides: &[Side], first: usize, distance: f64) {
         let mut points = Vec::with_capacity(sides.len() + sides.len() / 4);
         let mut spokes = Vec::new();
         let mut here = first;
@@ -121,12 +131,8 @@ struct Side {
     after: usize,
 }
 
-/// The sides of a ring, chained, and the first of them; `None` for less than a triangle.
-///
-/// Between two corners that turn towards the offset, a side that both eat up is left out and its neighbours are
-/// prolonged until they meet: the offset of the three is the same as that of the two. That takes the small change out
-/// of rounded tips, where every lost side would otherwise cost a crossing.
-fn sides(ring: &[Point], distance: f64) -> Option<(Vec<Side>, usize)> {
+/// The sides of a ring, chained; `None` for less than a triangle.
+fn sides(ring: &[Point], distance: f64) -> Option<Vec<Side>> {
     // Doubled points have no direction.
     let mut corners: Vec<V> = Vec::with_capacity(ring.len());
     for point in ring {
@@ -154,11 +160,20 @@ fn sides(ring: &[Point], distance: f64) -> Option<(Vec<Side>, usize)> {
     for index in 0..count {
         sides[index].eaten = eaten(&sides, index, distance);
     }
-    let mut left = count;
+    Some(sides)
+}
+
+/// Unchains the sides that vanish and gives one that is left.
+///
+/// Between two corners that turn towards the offset, a side that both eat up is left out and its neighbours are
+/// prolonged until they meet: the offset of the three is the same as that of the two. That takes the small change out
+/// of rounded tips, where every lost side would otherwise cost a crossing.
+fn leave_out_swallowed(sides: &mut [Side], distance: f64) -> usize {
+    let mut left = sides.len();
     let mut first = 0;
-    let mut suspects: Vec<usize> = (0..count).filter(|index| is_swallowed(&sides, *index)).collect();
+    let mut suspects: Vec<usize> = (0..left).filter(|index| is_swallowed(sides, *index)).collect();
     while let Some(index) = suspects.pop() {
-        if left == 3 || sides[index].length.is_nan() || !is_swallowed(&sides, index) {
+        if left == 3 || sides[index].length.is_nan() || !is_swallowed(sides, index) {
             continue;
         }
         let (before, after) = (sides[index].before, sides[index].after);
@@ -170,7 +185,7 @@ fn sides(ring: &[Point], distance: f64) -> Option<(Vec<Side>, usize)> {
         }
         let gap = sides[index].corner.to(sides[after].corner);
         let ahead = gap.cross(sides[after].along) / turn;
-        let behind = gap.cross(sides[before].along) / turn;
+        let behind = sides[before].along.cross(gap) / turn;
         sides[after].corner = sides[index].corner.plus(sides[before].along, ahead);
         sides[before].length += ahead;
         sides[after].length += behind;
@@ -180,10 +195,10 @@ fn sides(ring: &[Point], distance: f64) -> Option<(Vec<Side>, usize)> {
         sides[index].length = f64::NAN;
         first = after;
         left -= 1;
-        sides[after].eaten = eaten(&sides, after, distance);
-        suspects.extend([before, after].into_iter().filter(|index| is_swallowed(&sides, *index)));
+        sides[after].eaten = eaten(sides, after, distance);
+        suspects.extend([before, after].into_iter().filter(|index| is_swallowed(sides, *index)));
     }
-    Some((sides, first))
+    first
 }
 
 /// How much the corner at the start of a side eats of both its sides.

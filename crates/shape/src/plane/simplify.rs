@@ -1,40 +1,31 @@
 use super::{Point, Ring};
 
-/// The ring without the corners that a straight side passes within `tolerance` microns (Douglas and Peucker 1973).
+/// The ring without the corners that a straight side passes within `tolerance` microns.
 ///
-/// Kept corners stay where they are. `None` when nothing with an area is left.
+/// One walk round the ring: from each kept corner the directions that pass all later ones near enough form a cone,
+/// which narrows until a corner lies outside; the one before it is kept (Williams 1978). Kept corners stay where they
+/// are, in their order. `None` when nothing with an area is left.
 pub fn simplified(ring: &Ring, tolerance: f64) -> Option<Ring> {
-    let mut points: Vec<Point> = Vec::with_capacity(ring.0.len());
-    for point in &ring.0 {
-        if points.last() != Some(point) {
-            points.push(*point);
-        }
-    }
-    while points.len() > 1 && points.first() == points.last() {
-        points.pop();
-    }
+    let points = without_doubles(&ring.0);
     if points.len() < 3 {
         return None;
     }
-    // Two corners that are surely kept: one far from the first, and the one farthest from that.
-    let farthest =
-        |from: Point| (0..points.len()).max_by_key(|index| from.distance2(points[*index])).unwrap_or(0);
-    let one = farthest(points[0]);
-    points.rotate_left(one);
-    let other = (1..points.len()).max_by_key(|index| points[0].distance2(points[*index]))?;
-    let mut keep = vec![false; points.len() + 1];
-    (keep[0], keep[other], keep[points.len()]) = (true, true, true);
-    let limit = tolerance * tolerance;
-    let at = |index: usize| points[if index == points.len() { 0 } else { index }];
-    let mut spans = vec![(0, other), (other, points.len())];
-    while let Some((from, to)) = spans.pop() {
-        let (index, gap) = farthest_from(at(from), at(to), &points[from + 1..to]);
-        if gap > limit {
-            let middle = from + 1 + index;
-            keep[middle] = true;
-            spans.push((from, middle));
-            spans.push((middle, to));
+    // The least point is a corner of the hull: it is surely kept, and the same wherever the ring starts.
+    let start = (0..points.len()).min_by_key(|index| points[*index])?;
+    let mut keep = vec![false; points.len()];
+    keep[start] = true;
+    let mut anchor = start;
+    let mut before = start;
+    let mut cone = Cone::default();
+    for step in 1..=points.len() {
+        let here = if start + step < points.len() { start + step } else { start + step - points.len() };
+        if !cone.admits(points[anchor], points[here]) {
+            keep[before] = true;
+            anchor = before;
+            cone = Cone::default();
         }
+        cone.narrow(points[anchor], points[here], tolerance);
+        before = here;
     }
     let kept: Vec<Point> =
         points.iter().zip(&keep).filter(|(_, keep)| **keep).map(|(point, _)| *point).collect();
@@ -47,28 +38,64 @@ pub fn all_simplified(rings: &[Ring], tolerance: f64) -> Vec<Ring> {
     rings.iter().filter_map(|ring| simplified(ring, tolerance)).collect()
 }
 
-/// Which of some points is farthest from a segment, and its squared distance in square microns.
-fn farthest_from(from: Point, to: Point, points: &[Point]) -> (usize, f64) {
-    let float = |(x, y): (i64, i64)| (x as f64, y as f64);
-    let along = float(from.delta(to));
-    let length2 = along.0 * along.0 + along.1 * along.1;
-    let inverse = if length2 > 0.0 { 1.0 / length2 } else { 0.0 };
-    let mut worst = (0, -1.0);
-    for (index, point) in points.iter().enumerate() {
-        let reach = float(from.delta(*point));
-        let share = (along.0 * reach.0 + along.1 * reach.1) * inverse;
-        let gap = if share <= 0.0 {
-            reach.0 * reach.0 + reach.1 * reach.1
-        } else if share >= 1.0 {
-            let beyond = (reach.0 - along.0, reach.1 - along.1);
-            beyond.0 * beyond.0 + beyond.1 * beyond.1
-        } else {
-            let cross = along.0 * reach.1 - along.1 * reach.0;
-            cross * cross * inverse
-        };
-        if gap > worst.1 {
-            worst = (index, gap);
+fn without_doubles(points: &[Point]) -> Vec<Point> {
+    let mut single: Vec<Point> = Vec::with_capacity(points.len());
+    for point in points {
+        if single.last() != Some(point) {
+            single.push(*point);
         }
     }
-    worst
+    while single.len() > 1 && single.first() == single.last() {
+        single.pop();
+    }
+    single
+}
+
+/// The directions from a corner that pass all corners since then near enough.
+#[derive(Default)]
+struct Cone {
+    /// Its left and right side; none while every direction will do.
+    sides: Option<((f64, f64), (f64, f64))>,
+    /// How far the last corner was, squared.
+    reach2: f64,
+}
+
+impl Cone {
+    /// Whether a side from the anchor to a point passes all corners since then, and goes on from the last of them.
+    fn admits(&self, anchor: Point, point: Point) -> bool {
+        let Some((left, right)) = self.sides else { return true };
+        let toward = vector(anchor, point);
+        cross(right, toward) >= 0.0 && cross(toward, left) >= 0.0 && dot(toward, toward) >= self.reach2
+    }
+
+    fn narrow(&mut self, anchor: Point, point: Point, tolerance: f64) {
+        let toward = vector(anchor, point);
+        self.reach2 = dot(toward, toward);
+        if self.reach2 <= tolerance * tolerance {
+            return;
+        }
+        let aside = tolerance / self.reach2.sqrt();
+        let left = (toward.0 - toward.1 * aside, toward.1 + toward.0 * aside);
+        let right = (toward.0 + toward.1 * aside, toward.1 - toward.0 * aside);
+        self.sides = Some(match self.sides {
+            None => (left, right),
+            Some((old_left, old_right)) => (
+                if cross(left, old_left) >= 0.0 { left } else { old_left },
+                if cross(old_right, right) >= 0.0 { right } else { old_right },
+            ),
+        });
+    }
+}
+
+fn vector(from: Point, to: Point) -> (f64, f64) {
+    let (x, y) = from.delta(to);
+    (x as f64, y as f64)
+}
+
+fn cross(one: (f64, f64), other: (f64, f64)) -> f64 {
+    one.0 * other.1 - one.1 * other.0
+}
+
+fn dot(one: (f64, f64), other: (f64, f64)) -> f64 {
+    one.0 * other.0 + one.1 * other.1
 }

@@ -4,6 +4,7 @@ use shape::plane::{crossing, simplified, united};
 use shape::solid::Chain;
 use shape::{Point, Ring};
 use skein::Notes;
+use std::cmp::Reverse;
 
 /// Closes, simplifies and orients the chains of a layer: counter-clockwise around clay, larger loops first.
 ///
@@ -41,6 +42,7 @@ fn joined(mut chains: Vec<Chain>, limit: f64, layer: usize, notes: &mut Notes) -
     let mut rings = Vec::new();
     let ends = |chain: &Chain| Some((*chain.points.first()?, *chain.points.last()?));
     chains.retain(|chain| chain.points.len() > 1);
+    chains.sort_by(|one, other| one.points.cmp(&other.points));
     while !chains.is_empty() {
         let mut best = (f64::INFINITY, 0, 0);
         for (from, one) in chains.iter().enumerate() {
@@ -83,14 +85,24 @@ fn joined(mut chains: Vec<Chain>, limit: f64, layer: usize, notes: &mut Notes) -
     rings
 }
 
+fn from_least(mut ring: Ring) -> Ring {
+    if let Some(least) = (0..ring.0.len()).min_by_key(|index| ring.0[*index]) {
+        ring.0.rotate_left(least);
+    }
+    ring
+}
+
 fn length_of(chain: &Chain) -> f64 {
     chain.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
 }
 
 /// Larger first, each turned by how many others it lies in.
-fn nested(mut rings: Vec<Ring>) -> Vec<Ring> {
-    rings.retain(|ring| ring.area2() != 0);
-    rings.sort_by_key(|ring| std::cmp::Reverse(ring.area2().unsigned_abs()));
+///
+/// Each begins at its least point and loops of one size are sorted by it, so that the order of the triangles in the
+/// file does not matter.
+fn nested(rings: Vec<Ring>) -> Vec<Ring> {
+    let mut rings: Vec<Ring> = rings.into_iter().filter(|ring| ring.area2() != 0).map(from_least).collect();
+    rings.sort_by_cached_key(|ring| (Reverse(ring.area2().unsigned_abs()), ring.0.first().copied()));
     let boxes: Vec<(Point, Point)> = rings.iter().map(|ring| ring.bounds().unwrap_or_default()).collect();
     let holes: Vec<bool> = (0..rings.len())
         .map(|index| {

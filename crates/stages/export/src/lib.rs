@@ -11,17 +11,17 @@ use alteration::Alteration;
 use entry::{Change, Entry};
 use pen::{Pen, Style};
 use rayon::prelude::*;
-use skein::{Choice, Error, Layer, Line, Notes, Place, Settings, Skein};
+use skein::{Choice, Error, Layer, Line, Notes, Place, Settings, Skein, Tag};
 
 /// Writes the file that the machine reads.
 #[derive(Clone, Debug, Settings)]
 pub struct Export {
-    /// Lines before the print: home, prime. They come first, before the file says how it counts, and may not heat:
-    /// a clay printer has nothing to heat.
-    #[setting(default = "G28\nG92 E0")]
+    /// Lines before the print: home, prime. The file has said millimetres and absolute coordinates before them, and says
+    /// how E counts, from zero, behind them. They may not heat: a clay printer has nothing to heat.
+    #[setting(default = "G28")]
     pub start: String,
-    /// Lines after the print: relieve the pressure, lift, park. No line may lower the nozzle into the pot, and none
-    /// may heat.
+    /// Lines after the print: relieve the pressure, lift, park. With `G92 E0` in front, a line with E is the same whether
+    /// E counts from move to move or from the start. No line may lower the nozzle into the pot, and none may heat.
     #[setting(default = "G91\nG1 Z10 F600\nG90\nM84")]
     pub end: String,
     /// What the file says beside its commands. Less makes a smaller file that viewers understand less.
@@ -69,13 +69,20 @@ impl Export {
 
         let mut text = Vec::new();
         remarks::head(&skein, self.comments, &mut text)?;
-        start.write(self.comments, &mut text);
+        let Skein { head, layers, tail } = skein;
+        // What the header says of coordinates holds for the start, and the start cannot undo what is said of E.
+        let crafting = head.iter().position(|line| *line == Line::Open(Tag::Crafting)).unwrap_or(head.len());
+        let (header, crafting) = head.split_at(crafting);
         let mut pen = Pen::new(&style, Entry::default(), None, text);
-        pen.lines(&skein.head);
+        pen.lines(header);
+        start.write(self.comments, &mut pen.text);
+        // Nobody knows where the start leaves the nozzle.
+        let entry = Entry { at: None, ..Entry::default().after(Change::of(header)) };
+        let mut pen = Pen::new(&style, entry, None, pen.text);
+        pen.lines(crafting);
         sink(&pen.text)?;
 
-        let Skein { head, layers, tail } = skein;
-        let (entries, leaving) = entries(Entry::default().after(Change::of(&head)), &layers);
+        let (entries, leaving) = entries(entry.after(Change::of(crafting)), &layers);
         drop(head);
         let mut layers = layers.into_iter().zip(entries).enumerate();
         loop {

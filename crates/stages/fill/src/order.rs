@@ -7,10 +7,17 @@ use skein::{Feature, Point};
 /// Puts every layer in order, each starting from where the one before ended.
 pub fn layers(layers: Vec<Vec<Island>>, fill: &Fill) -> Vec<Vec<Island>> {
     let mut here = fill.seam;
-    layers.into_iter().map(|islands| layer(islands, fill, &mut here)).collect()
+    // On the bed the outermost wall goes first: it shows where the part lies and sticks best.
+    let sequence =
+        |index| if index == 0 { ThreadSequence::PerimeterLoopsInfill } else { fill.thread_sequence };
+    layers
+        .into_iter()
+        .enumerate()
+        .map(|(index, islands)| layer(islands, fill, sequence(index), &mut here))
+        .collect()
 }
 
-fn layer(mut islands: Vec<Island>, fill: &Fill, here: &mut Point) -> Vec<Island> {
+fn layer(mut islands: Vec<Island>, fill: &Fill, sequence: ThreadSequence, here: &mut Point) -> Vec<Island> {
     let mut ordered = Vec::with_capacity(islands.len());
     islands.retain(|island| !island.strands.is_empty());
     let boxes = |island: &Island| {
@@ -33,7 +40,7 @@ fn layer(mut islands: Vec<Island>, fill: &Fill, here: &mut Point) -> Vec<Island>
         let nearest =
             (0..left.len()).min_by_key(|index| distance2_to_box(*here, left[*index].1)).unwrap_or(0);
         let (island, _) = left.remove(nearest);
-        ordered.push(order_island(island, fill, here));
+        ordered.push(order_island(island, fill, sequence, here));
     }
     ordered
 }
@@ -74,10 +81,10 @@ impl Turn {
     }
 }
 
-fn order_island(island: Island, fill: &Fill, here: &mut Point) -> Island {
+fn order_island(island: Island, fill: &Fill, sequence: ThreadSequence, here: &mut Point) -> Island {
     let mut left = island.strands;
     let mut strands = Vec::with_capacity(left.len());
-    for turn in turns(fill.thread_sequence) {
+    for turn in turns(sequence) {
         loop {
             // The nearest place where a strand of this turn may begin.
             let mut best: Option<(i64, usize, usize)> = None;
