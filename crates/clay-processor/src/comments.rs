@@ -6,15 +6,15 @@ use gcode::Kind;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Comments {
     first_code: Option<usize>,
-    last_code: Option<usize>,
+    behind_code: usize,
     in_head: bool,
     in_tail: bool,
-    lines: usize,
 }
 
 impl Comments {
-    #[inline]
-    pub(crate) fn feed(&mut self, kind: Kind) {
+    /// Takes the line at `index`.
+    #[inline(always)]
+    pub(crate) fn feed(&mut self, index: usize, kind: Kind) {
         match kind {
             Kind::Blank => {}
             Kind::Comment => {
@@ -22,18 +22,16 @@ impl Comments {
                 self.in_tail = true;
             }
             Kind::Code => {
-                self.first_code.get_or_insert(self.lines);
-                self.last_code = Some(self.lines);
+                self.first_code.get_or_insert(index);
+                self.behind_code = index + 1;
                 self.in_tail = false;
             }
         }
-        self.lines += 1;
     }
 
-    /// The last line of the head and the first of the tail.
-    pub(crate) fn ends(&self) -> (Option<usize>, Option<usize>) {
-        let head_end = self.first_code.unwrap_or(self.lines);
-        let tail_start = self.last_code.map_or(0, |index| index + 1);
-        (self.in_head.then(|| head_end.saturating_sub(1)), self.in_tail.then_some(tail_start))
+    /// The last line of the head and the first of the tail, of so many `lines`.
+    pub(crate) fn ends(&self, lines: usize) -> (Option<usize>, Option<usize>) {
+        let head_end = self.first_code.unwrap_or(lines);
+        (self.in_head.then(|| head_end.saturating_sub(1)), self.in_tail.then_some(self.behind_code))
     }
 }

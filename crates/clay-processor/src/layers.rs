@@ -37,7 +37,7 @@ impl Layers {
             group.lines += 1;
             return true;
         }
-        self.slope(index, height);
+        self.start(Group { height, first: index, last: index, lines: 1 });
         false
     }
 
@@ -48,7 +48,7 @@ impl Layers {
     }
 
     /// Ends the layer that grows and lets `group` grow.
-    #[inline(never)]
+    #[cold]
     pub(crate) fn start(&mut self, group: Group) {
         self.end();
         self.open = Some(group);

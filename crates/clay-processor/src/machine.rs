@@ -123,7 +123,7 @@ impl Machine {
         }
     }
 
-    #[inline(never)]
+    #[cold]
     fn close_gap(&mut self, gap: f64) {
         self.gap = None;
         self.interruptions.count += 1;

@@ -79,7 +79,8 @@ impl Processor {
             } else {
                 break;
             };
-            rest = rest.get(length..).unwrap_or_default();
+            let Some(behind) = rest.get(length..) else { break };
+            rest = behind;
         }
         self.unfinished.extend_from_slice(rest);
     }
@@ -103,7 +104,7 @@ impl Processor {
         self.machine.finish();
         let notes = self.habits.notes(&self.letter, &self.machine);
 
-        let (head, tail) = self.comments.ends();
+        let (head, tail) = self.comments.ends(self.index);
         let (mut letter, mut machine) = (self.letter.model, self.machine.model);
         for model in [&mut letter, &mut machine] {
             model.first_part_comments_end = head;
@@ -144,7 +145,7 @@ impl Processor {
         self.unfinished = line;
     }
 
-    #[inline]
+    #[inline(never)]
     fn take(&mut self, text: &[u8]) {
         let text = if self.index == 0 { without_bom(text) } else { text };
         self.line.read(text);
@@ -165,7 +166,7 @@ impl Processor {
     /// every line of a file, and most of what the models ask of a line has one answer.
     #[inline(always)]
     fn follow_stroke(&mut self) {
-        self.comments.feed(Kind::Code);
+        self.comments.feed(self.index, Kind::Code);
         let class = self.machine.feed_straight(self.index, &self.line.words);
         self.letter.feed_stroke(self.index, matches!(class, Class::Flat | Class::Slope));
         self.habits.watch_stroke(self.index, class);
@@ -174,7 +175,7 @@ impl Processor {
 
     #[inline(never)]
     fn follow_any(&mut self) {
-        self.comments.feed(self.line.kind);
+        self.comments.feed(self.index, self.line.kind);
         let class = self.machine.feed(self.index, &self.line);
         let prints = matches!(class, Some(Class::Flat | Class::Slope));
         let movement = self.letter.feed(self.index, &self.line, prints);
@@ -195,4 +196,41 @@ fn is_stroke(line: &Line) -> bool {
         && !words.has(b'Z')
         && !words.has_bare()
         && !line.unreadable
+}
+
+#[cfg(test)]
+mod tests {
+    use gcode::lines;
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Strokes, plain lines and others.
+    fn text() -> impl Strategy<Value = String> {
+        let stroke = "G1 X[0-3][.][0-9]{1,3} Y-?[0-2] E[.0-2]{1,2}";
+        let words = "( [XYZEFIJ]-?[0-2]([.][0-9]{1,3})?){0,5}";
+        let command = "(G[0-3]|G1|G28|G9[0-2]|M8[23]|G2[01]|g1|N1 G1|M106|;TYPE:a)";
+        let line = prop_oneof![
+            3 => stroke.prop_map(|line| line),
+            3 => words.prop_map(|words| format!("G1{words}")),
+            2 => (command, words).prop_map(|(command, words)| command + &words),
+            1 => "(G1 [XZE]?1?[ é]?Z?|;|\\(a\\)G1 E|)",
+        ];
+        prop::collection::vec(line, 0..60).prop_map(|lines| lines.join("\n"))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+        #[test]
+        fn the_short_way_finds_what_the_long_way_does(text in text(), e_follows_g90: bool) {
+            let mut short = Processor::new(Options { e_follows_g90 });
+            let mut long = short.clone();
+            short.push(text.as_bytes());
+            for line in lines(text.as_bytes()) {
+                long.line.read(line);
+                long.follow_any();
+            }
+            prop_assert_eq!(short.finish(), long.finish());
+        }
+    }
 }

@@ -45,16 +45,23 @@ impl Spirals {
     #[inline(always)]
     pub(crate) fn flat(&mut self, index: usize, height: Option<f64>, length: impl FnOnce() -> f64) -> bool {
         let goes_on = self.layers.flat(index, height);
+        if self.climb.is_some() {
+            self.flat_in_climb(index, height, length());
+        }
+        goes_on
+    }
+
+    #[cold]
+    fn flat_in_climb(&mut self, index: usize, height: Option<f64>, length: f64) {
         if let Some(climb) = &mut self.climb {
             let flats = climb.flats.get_or_insert(Group { height, first: index, last: index, lines: 0 });
             flats.last = index;
             flats.lines += 1;
-            climb.flat_length += length();
+            climb.flat_length += length;
             if climb.flat_length > LONGEST_FLAT {
                 self.interrupt();
             }
         }
-        goes_on
     }
 
     /// A line printed up or down by `rise` to `height`.
@@ -75,8 +82,15 @@ impl Spirals {
     }
 
     /// The printing stops, or has become flat: a climb ends.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn interrupt(&mut self) {
+        if self.climb.is_some() {
+            self.end_climb();
+        }
+    }
+
+    #[cold]
+    fn end_climb(&mut self) {
         if let Some(climb) = self.climb.take()
             && climb.slopes >= 2
             && climb.rise > EPSILON_Z

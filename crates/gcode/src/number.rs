@@ -4,7 +4,7 @@
 use crate::short::read_short;
 
 /// Powers of ten that a double holds exactly; dividing by one of them rounds once.
-pub(crate) const TENS: [f64; 16] =
+const TENS: [f64; 16] =
     [1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15];
 
 /// The number that begins at `start` of `text`, to the nearest double, and where it ends. Nothing if there is no digit,

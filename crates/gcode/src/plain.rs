@@ -5,11 +5,11 @@
 //! in one pass that finds the line end by coming to it, which costs a third of finding the end first and then asking of
 //! every piece what it is.
 //!
-//! The law: a line that is plain is, once read, the same [`Line`] that [`Line::read`] makes of it.
+//! The law: a plain line becomes the same [`Line`] that [`Line::read`] makes of it.
 
 use crate::line::{Kind, Line};
 use crate::number::read_number;
-use crate::short::read_short;
+use crate::short::short;
 use crate::word::Command;
 
 impl Line {
@@ -23,36 +23,44 @@ impl Line {
     /// assert_eq!(line.read_plain(b"G1 X1.5 E2"), None);
     /// assert_eq!(line.read_plain(b"M104 S200\n"), None);
     /// ```
-    #[inline]
+    #[inline(always)]
     pub fn read_plain(&mut self, text: &[u8]) -> Option<usize> {
         let [b'G', digit @ b'0'..=b'9', b' ', ..] = text else { return None };
         self.kind = Kind::Code;
         self.command = Some(Command::g(u16::from(digit - b'0')));
         self.unreadable = false;
         self.words.clear();
-        let mut index: usize = 3;
-        loop {
-            let letter = *text.get(index)?;
+        self.read_short_words(text, 3)
+    }
+
+    /// Reads words from `index` on as long as their numbers are short, which most are.
+    #[inline(always)]
+    fn read_short_words(&mut self, text: &[u8], mut index: usize) -> Option<usize> {
+        // In a register, unlike the mask of the words.
+        let mut present = 0;
+        while let Some(&[letter, ref number @ ..]) = text.get(index..).and_then(<[u8]>::first_chunk::<9>) {
+            let Some((value, length)) = short(*number) else { break };
             if !letter.is_ascii_uppercase() {
                 return None;
             }
-            let Some((value, end)) = read_short(text, index.wrapping_add(1)) else {
-                return self.read_plain_rest(text, index);
-            };
-            self.words.put(letter, value);
-            index = end.wrapping_add(1);
-            match text.get(end)? {
+            present = self.words.put_new(present, letter, value)?;
+            index = index.wrapping_add(length).wrapping_add(2);
+            match number[length] {
                 b' ' => {}
-                b'\n' => return Some(index),
-                b'\r' if text.get(index) == Some(&b'\n') => return Some(index.wrapping_add(1)),
+                b'\n' => {
+                    self.words.set_present(present);
+                    return Some(index);
+                }
                 _ => return None,
             }
         }
+        self.words.set_present(present);
+        self.read_any_words(text, index)
     }
 
-    /// Reads the words of a plain line from `index` on, whatever their numbers.
+    /// Reads words from `index` on.
     #[inline(never)]
-    fn read_plain_rest(&mut self, text: &[u8], mut index: usize) -> Option<usize> {
+    fn read_any_words(&mut self, text: &[u8], mut index: usize) -> Option<usize> {
         loop {
             let letter = *text.get(index)?;
             if !letter.is_ascii_uppercase() {
@@ -64,7 +72,6 @@ impl Line {
             match text.get(end)? {
                 b' ' => {}
                 b'\n' => return Some(index),
-                b'\r' if text.get(index) == Some(&b'\n') => return Some(index.wrapping_add(1)),
                 _ => return None,
             }
         }

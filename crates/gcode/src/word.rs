@@ -103,6 +103,24 @@ impl Words {
         }
     }
 
+    /// Does as [`put`](Self::put) with a `letter` in upper case that is not in `present`, a mask that the caller keeps
+    /// for [`set_present`](Self::set_present). Returns the mask with it; nothing if the letter is in it.
+    #[inline(always)]
+    pub(crate) fn put_new(&mut self, present: u32, letter: u8, value: f64) -> Option<u32> {
+        let index = letter.wrapping_sub(b'A') & 31;
+        let bit = 1 << index;
+        if present & bit != 0 {
+            return None;
+        }
+        *self.values.get_mut(usize::from(index))? = value;
+        Some(present | bit)
+    }
+
+    #[inline(always)]
+    pub(crate) fn set_present(&mut self, present: u32) {
+        self.present = present;
+    }
+
     #[inline]
     pub(crate) fn put_bare(&mut self, letter: u8) {
         if let Some(index) = index(letter) {

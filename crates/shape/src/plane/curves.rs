@@ -340,8 +340,8 @@ impl Curves {
         for tree in &self.rings {
             let to = from + visits[from..].iter().take_while(|visit| visit.side < tree.end).count();
             if from == to {
-                let mut circle = Circle::default();
-                circle.arcs.push(0);
+                let points = Vec::with_capacity(tree.end - tree.start);
+                let mut circle = Circle { points, arcs: vec![0], length: 0.0 };
                 for side in tree.start..tree.end {
                     circle.points.push(self.points[side]);
                     self.lengthen(&mut circle, side, self.after(tree, side));
@@ -488,7 +488,8 @@ impl Tree {
             from += length;
             length = length.div_ceil(2);
         }
-        let mut tree = Self { start, end, levels, boxes, forwards: Vec::new() };
+        let forwards = Vec::with_capacity(boxes.len());
+        let mut tree = Self { start, end, levels, boxes, forwards };
         for level in 0..tree.levels.len() {
             for index in 0..leaves.div_ceil(1 << level) {
                 tree.forwards.push(tree.runs_forwards(points, level, index));

@@ -179,7 +179,7 @@ fn a_sharp_reflex_corner_keeps_its_distance() {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(600))]
 
-    /// The exact kernel, given the same raw curve, covers the same area.
+    /// The exact kernel, given the same raw curve rounded to microns, covers the same area up to that rounding.
     #[test]
     fn it_agrees_with_the_exact_kernel(seed in any::<u64>(), points in 5usize..160, share in -0.6f64..0.3) {
         let region = [if seed % 2 == 0 { star(seed, points, 30_000.0) } else { blob(seed, points, 30_000.0) }];
@@ -187,7 +187,7 @@ proptest! {
         let ours = offset(&region, distance);
         let raw = offset::raw_for_test(&region, distance);
         let exact = boolean::positive(&raw);
-        let slack = 1e-3 * ours.iter().chain(&exact).map(Ring::length).sum::<f64>() / 1000.0 + 1e-3;
+        let slack = 3e-3 * ours.iter().chain(&exact).map(Ring::length).sum::<f64>() / 1000.0 + 1e-3;
         prop_assert!((area(&ours) - area(&exact)).abs() <= slack, "{} {} {}", area(&ours), area(&exact), slack);
     }
 

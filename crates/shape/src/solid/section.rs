@@ -120,7 +120,8 @@ impl Walk<'_> {
     fn chain(&mut self, start: usize) -> Chain {
         let face = self.faces[start];
         let (enter, leave) = self.crossed_edges(&self.mesh.faces[face as usize]);
-        let mut points = vec![self.cut(enter)];
+        let mut points = Vec::with_capacity(self.faces.len() - start);
+        points.push(self.cut(enter));
         if self.follow(face, leave, enter, &mut points) {
             return Chain { points, closed: true };
         }
@@ -185,18 +186,19 @@ impl Walk<'_> {
     }
 }
 
-/// Which planes have a nearly level face in the room just below them: only there can an outline jump outwards from
-/// one plane to the next by more than `slope` times the distance between them.
-pub fn planes_over_level_faces(mesh: &TriangleMesh, planes: &[i32], slope: f64) -> Vec<bool> {
-    let mut level = vec![false; planes.len()];
+/// Which planes have nearly level faces in the room just below them, that look down and that look up: only over a face
+/// that looks down can an outline jump outwards from one plane to the next by more than `slope` times the distance
+/// between them. (Where the mesh is inside out, the two are exchanged.)
+pub fn planes_over_level_faces(mesh: &TriangleMesh, planes: &[i32], slope: f64) -> [Vec<bool>; 2] {
+    let mut level = [vec![false; planes.len()], vec![false; planes.len()]];
     let index = PlaneIndex::new(planes);
     for face in &mesh.faces {
-        let [a, b, c] = mesh.corners(face);
         let [x, y, z] = mesh.normal(face);
         if (x * x + y * y) * slope * slope <= z * z && z != 0.0 {
+            let [a, b, c] = mesh.corners(face);
             let low = index.up_to(a.z.min(b.z).min(c.z).saturating_sub(1));
             let high = index.up_to(a.z.max(b.z).max(c.z));
-            level[low..planes.len().min(high + 1)].fill(true);
+            level[usize::from(z > 0.0)][low..planes.len().min(high + 1)].fill(true);
         }
     }
     level

@@ -160,7 +160,9 @@ impl Carve {
 
     fn find_bridges(&self, slices: &mut Slices, mesh: &TriangleMesh, planes: &[i32]) {
         let reach = bridge::REACH * self.bead_width.um();
-        let candidates = planes_over_level_faces(mesh, planes, reach / self.layer_height.um());
+        let [down, up] = planes_over_level_faces(mesh, planes, reach / self.layer_height.um());
+        // A part whose triangles are inside out has its undersides where they look up.
+        let candidates = if mesh.volume() < 0.0 { up } else { down };
         let directions: Vec<Option<Direction>> = (0..slices.layers.len())
             .into_par_iter()
             .map(|index| {
