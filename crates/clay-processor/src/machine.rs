@@ -113,10 +113,10 @@ impl Machine {
     #[inline]
     fn print(&mut self, step: &Move) {
         self.extruding_lines += 1;
-        if let Some(height) = step.to {
-            if self.max_printed.is_none_or(|highest| height > highest) {
-                self.max_printed = Some(height);
-            }
+        if let Some(height) = step.to
+            && self.max_printed.is_none_or(|highest| height > highest)
+        {
+            self.max_printed = Some(height);
         }
         if let Some(gap) = self.gap {
             self.close_gap(gap);

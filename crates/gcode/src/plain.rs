@@ -51,6 +51,10 @@ impl Line {
                     self.words.set_present(present);
                     return Some(index);
                 }
+                b'\r' => {
+                    self.words.set_present(present);
+                    return behind_line_feed(text, index);
+                }
                 _ => return None,
             }
         }
@@ -72,8 +76,14 @@ impl Line {
             match text.get(end)? {
                 b' ' => {}
                 b'\n' => return Some(index),
+                b'\r' => return behind_line_feed(text, index),
                 _ => return None,
             }
         }
     }
+}
+
+#[inline(never)]
+fn behind_line_feed(text: &[u8], index: usize) -> Option<usize> {
+    (text.get(index) == Some(&b'\n')).then_some(index.wrapping_add(1))
 }

@@ -149,6 +149,3 @@ impl Fill {
 fn place(error: Error, layer: usize) -> Error {
     if error.place == skein::Place::Whole { error.at(skein::Place::Layer(layer)) } else { error }
 }
-
-#[cfg(test)]
-mod tests;
