@@ -39,18 +39,30 @@ pub fn thin_parts(region: &[Ring], core: &Offset, width: f64) -> Vec<MiddleLine>
         if area(&piece) < width * width / 16.0 {
             continue;
         }
-        let found = middle_lines(&piece, region, width);
+        let mut found = middle_lines(&piece, region, width);
         if found.is_empty() {
             lines.extend(dab(&piece));
         }
+        // A line ends before the tip; the clay for the tip goes onto the line.
+        let covered: f64 = found.iter().map(MiddleLine::area).sum();
+        let share = (area(&piece) / covered).clamp(0.7, 1.7);
+        found.iter_mut().flat_map(|line| &mut line.widths).for_each(|width| *width *= share);
         lines.extend(found);
     }
     lines
 }
 
+impl MiddleLine {
+    /// What it covers, in square microns.
+    pub fn area(&self) -> f64 {
+        let stretches = self.points.windows(2).zip(self.widths.windows(2));
+        stretches.map(|(ends, widths)| ends[0].distance(ends[1]) * f64::midpoint(widths[0], widths[1])).sum()
+    }
+}
+
 /// The shortest of lines for a piece that is about as long as it is wide: half its length, and as wide as it takes to
-/// fill it.
-fn dab(piece: &[Ring]) -> Option<MiddleLine> {
+/// fill it. The piece is one outside, first, with its holes.
+pub fn dab(piece: &[Ring]) -> Option<MiddleLine> {
     let ring = piece.first()?;
     let count = ring.0.len() as f64;
     let mean = |of: fn(&Point) -> i32| ring.0.iter().map(|point| f64::from(of(point))).sum::<f64>() / count;

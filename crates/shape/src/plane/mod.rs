@@ -12,7 +12,7 @@ mod simplify;
 
 pub use curves::Offset;
 pub use islands::islands;
-pub use middle::{MiddleLine, thin_parts};
+pub use middle::{MiddleLine, dab, thin_parts};
 pub use offset::{crossing, facing, offset, offset_with_loss, outside, united};
 pub use point::{Point, cross};
 pub use ring::Ring;

@@ -82,10 +82,17 @@ impl Curves {
                 && (before.eaten + side.eaten > before.length
                     || side.eaten + sides[side.after].eaten > side.length);
             if through {
-                spokes.extend([points.len(), points.len() + 1]);
-                points.push(corner.plus(before.along.left(), distance));
-                points.push(corner);
-                points.push(corner.plus(side.along.left(), distance));
+                // What was left out before a corner that finds no room must be there after all.
+                let mut index = side.before;
+                while index != here {
+                    let along = sides[index].along;
+                    index = if index + 1 == sides.len() { 0 } else { index + 1 };
+                    let corner = sides[index].start;
+                    spokes.extend([points.len(), points.len() + 1]);
+                    points.push(corner.plus(along.left(), distance));
+                    points.push(corner);
+                    points.push(corner.plus(sides[index].along.left(), distance));
+                }
             } else if side.eaten > 0.0 || straight >= 0.0 {
                 let (one, other) = (before.along.left(), side.along.left());
                 let middle = V { x: one.x + other.x, y: one.y + other.y };
@@ -119,7 +126,9 @@ fn push_arc(points: &mut Vec<V>, corner: V, normal: V, turn: f64, straight: f64,
 
 /// A side of a ring on its way to be offset.
 struct Side {
-    /// Where it starts.
+    /// Where it starts in the ring.
+    start: V,
+    /// Where it starts once the sides before it are left out.
     corner: V,
     /// Its direction, of length one.
     along: V,
@@ -155,7 +164,7 @@ fn sides(ring: &[Point], distance: f64) -> Option<Vec<Side>> {
         let vector = corner.to(corners[after]);
         let length = vector.dot(vector).sqrt();
         let along = V { x: vector.x / length, y: vector.y / length };
-        sides.push(Side { corner, along, length, eaten: 0.0, before, after });
+        sides.push(Side { start: corner, corner, along, length, eaten: 0.0, before, after });
     }
     for index in 0..count {
         sides[index].eaten = eaten(&sides, index, distance);

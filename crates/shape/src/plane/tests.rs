@@ -187,7 +187,7 @@ proptest! {
         let ours = offset(&region, distance);
         let raw = offset::raw_for_test(&region, distance);
         let exact = boolean::positive(&raw);
-        let slack = 3e-3 * ours.iter().chain(&exact).map(Ring::length).sum::<f64>() / 1000.0 + 1e-3;
+        let slack = 2e-3 * ours.iter().chain(&exact).map(Ring::length).sum::<f64>() / 1000.0 + 1e-3;
         prop_assert!((area(&ours) - area(&exact)).abs() <= slack, "{} {} {}", area(&ours), area(&exact), slack);
     }
 

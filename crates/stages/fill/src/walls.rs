@@ -3,8 +3,8 @@
 use crate::Fill;
 use crate::source::Source;
 use crate::strand::{Strand, share, spacing};
-use shape::plane::{Offset, all_simplified, facing, offset, offset_with_loss, thin_parts};
-use skein::{Feature, Ratio, Ring};
+use shape::plane::{Offset, all_simplified, dab, facing, offset, offset_with_loss, thin_parts};
+use skein::{Feature, Ring, Side};
 
 /// A wall keeps no corner nearer to a straight line than half a hundredth of a bead.
 const FINENESS: f64 = 200.0;
@@ -24,16 +24,16 @@ pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>)
         level += 1;
         let last = level == fill.walls || next.rings.is_empty();
         // Where the next wall fits everywhere, nothing is too narrow for this one.
-        let narrow = next.lost >= step;
+        let narrow = next.lost >= step || has_small(&wall, step);
         let room = if last || narrow { offset_with_loss(&wall, -step / 2.0) } else { Offset::default() };
         if narrow && (!last || solid) {
             fill_gaps(&room.rings, &next, step, source, strands);
         }
-        let flows =
-            if room.lost >= step { relief(&wall, step, source) } else { vec![Vec::new(); wall.len()] };
         let feature = if level == 1 { Feature::Edge } else { Feature::Loop };
-        for (ring, flows) in wall.into_iter().zip(flows) {
-            strands.push(Strand { flows, ..Strand::wall(feature, ring) });
+        if room.lost < step && !has_small(&wall, step) {
+            strands.extend(wall.into_iter().map(|ring| Strand::wall(feature, ring)));
+        } else {
+            strands.extend(relieved(wall, &room, feature, step, source));
         }
         if last {
             return if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
@@ -42,17 +42,46 @@ pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>)
     }
 }
 
-/// The flow of walls whose neighbours across are nearer than a bead: the two share the room between them.
-fn relief(wall: &[Ring], step: f64, source: &Source) -> Vec<Vec<Ratio>> {
-    facing(wall, step)
-        .into_iter()
-        .map(|ring| {
-            ring.into_iter()
-                // Half of the room between the middles, and the other half of the bead on its far side.
-                .map(|gap| gap.map_or(Ratio::ONE, |gap| share(&source.bead, (gap + step) / 2.0)))
-                .collect()
-        })
-        .collect()
+/// Whether a ring is so small that nothing of it need turn inside out for it to be too narrow.
+fn has_small(rings: &[Ring], step: f64) -> bool {
+    rings.iter().any(|ring| ring.length() < 4.0 * step)
+}
+
+/// Walls of which some have a neighbour across that is nearer than a bead: the two share the room between them.
+fn relieved(
+    wall: Vec<Ring>,
+    room: &Offset,
+    feature: fn(Side) -> Feature,
+    step: f64,
+    source: &Source,
+) -> Vec<Strand> {
+    let gaps = facing(&wall, step);
+    let holds = |ring: &Ring, other: &Ring| other.0.first().is_some_and(|point| ring.contains(*point));
+    let mut strands = Vec::with_capacity(wall.len());
+    for (index, gaps) in gaps.into_iter().enumerate() {
+        let ring = &wall[index];
+        // Half of the room between the middles, and the other half of the bead on its far side.
+        let mut widths: Vec<f64> =
+            gaps.iter().map(|gap| gap.map_or(step, |gap| (gap + step) / 2.0)).collect();
+        let others = wall.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
+        let alone =
+            Side::of(ring) == Side::Outer && !others.chain(&room.rings).any(|other| holds(ring, other));
+        if alone {
+            // Nothing fits inside this wall: what it encloses and half a bead around is all its own.
+            let part = offset(std::slice::from_ref(ring), step / 2.0);
+            if ring.length() < step {
+                strands.extend(dab(&part).map(|line| Strand::middle(line, &source.bead)));
+                continue;
+            }
+            let covered: f64 =
+                ring.segments().zip(&widths).map(|((from, to), width)| from.distance(to) * width).sum();
+            let share = part.iter().map(Ring::area).sum::<f64>() * 1e6 / covered;
+            widths.iter_mut().for_each(|width| *width *= share.clamp(0.7, 3.0));
+        }
+        let flows = widths.into_iter().map(|width| share(&source.bead, width)).collect();
+        strands.push(Strand { flows, ..Strand::wall(feature, ring.clone()) });
+    }
+    strands
 }
 
 /// Lays beads on the middle of what is too narrow for the next wall.
