@@ -21,8 +21,8 @@ pub struct MiddleLine {
 ///
 /// `core` is the region shrunk by half the width, which the caller has anyway.
 pub fn thin_parts(region: &[Ring], core: &Offset, width: f64) -> Vec<MiddleLine> {
-    // A loop that turned inside out and is shorter than this was a corner, not a part.
-    if core.lost < width {
+    // A loop that turned inside out and is shorter than this was a corner, not a part; unless it was all of a small part.
+    if core.lost < width && !region.iter().any(|ring| ring.length() < 8.0 * width) {
         return Vec::new();
     }
     let area = |rings: &[Ring]| rings.iter().map(|ring| ring.area2() as f64 / 2.0).sum::<f64>();
@@ -40,17 +40,24 @@ pub fn thin_parts(region: &[Ring], core: &Offset, width: f64) -> Vec<MiddleLine>
             continue;
         }
         let mut found = middle_lines(&piece, region, width);
-        if found.is_empty() {
-            lines.extend(dab(&piece));
-        }
         // A line ends before the tip; the clay for the tip goes onto the line.
         let covered: f64 = found.iter().map(MiddleLine::area).sum();
-        let share = (area(&piece) / covered).clamp(0.7, 1.7);
-        found.iter_mut().flat_map(|line| &mut line.widths).for_each(|width| *width *= share);
+        let share = area(&piece) / covered;
+        if covered * MOST < area(&piece) {
+            // A stub in a piece as wide as it is long (or no line at all).
+            found = dab(&piece).into_iter().collect();
+        } else {
+            found.iter_mut().flat_map(|line| &mut line.widths).for_each(|width| *width *= share.max(LEAST));
+        }
         lines.extend(found);
     }
     lines
 }
+
+/// How much more or less clay than its own width a middle line takes to fill its piece: more for the tips, less where
+/// it runs on into the part beside the piece.
+const MOST: f64 = 1.7;
+const LEAST: f64 = 0.7;
 
 impl MiddleLine {
     /// What it covers, in square microns.
