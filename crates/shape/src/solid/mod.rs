@@ -6,4 +6,4 @@ mod section;
 mod topology;
 
 pub use mesh::{Bounds, Edge, Face, Point3, TriangleMesh};
-pub use section::{Chain, Sections, planes_over_level_faces};
+pub use section::{Chain, Sections, planes_over_undersides};

@@ -8,8 +8,9 @@
 //! interval shrunk to nothing: coordinates are whole microns, so just below the plane there is never a vertex. The
 //! outline then runs through the vertex itself, and a level face on the plane belongs to what is above.
 
-use super::{Edge, Face, TriangleMesh};
+use super::{Edge, Face, Point3, TriangleMesh};
 use crate::Point;
+use rayon::prelude::*;
 
 /// A mesh with its faces filed under rising planes.
 pub struct Sections<'a> {
@@ -35,15 +36,23 @@ impl<'a> Sections<'a> {
     pub fn new(mesh: &'a TriangleMesh, planes: &'a [i32]) -> Self {
         let mut starts = vec![0usize; planes.len() + 1];
         let index = PlaneIndex::new(planes);
-        let mut spans: Vec<(u32, u32, u32)> = Vec::new();
-        for (number, face) in mesh.faces.iter().enumerate() {
-            let [a, b, c] = face.vertices.map(|vertex| mesh.vertices[vertex as usize].z);
-            let (low, high) = (a.min(b).min(c), a.max(b).max(c));
-            let (from, to) = (index.up_to(low), index.up_to(high));
-            if from < to {
-                spans.push((number as u32, from as u32, to as u32));
-            }
-        }
+        // Side by side, and laid end to end in file order.
+        let pieces: Vec<Vec<(u32, u32, u32)>> = mesh
+            .faces
+            .par_chunks(PIECE)
+            .enumerate()
+            .map(|(piece, faces)| {
+                let first = (piece * PIECE) as u32;
+                let spans = faces.iter().zip(first..).filter_map(|(face, number)| {
+                    let [a, b, c] = face.vertices.map(|vertex| mesh.vertices[vertex as usize].z);
+                    let (low, high) = (a.min(b).min(c), a.max(b).max(c));
+                    let (from, to) = (index.up_to(low), index.up_to(high));
+                    (from < to).then_some((number, from as u32, to as u32))
+                });
+                spans.collect()
+            })
+            .collect();
+        let spans: Vec<(u32, u32, u32)> = pieces.concat();
         for &(_, from, to) in &spans {
             for plane in from..to {
                 starts[plane as usize + 1] += 1;
@@ -186,20 +195,46 @@ impl Walk<'_> {
     }
 }
 
-/// Which planes have nearly level faces in the room just below them, that look down and that look up: only over a face
-/// that looks down can an outline jump outwards from one plane to the next by more than `slope` times the distance
-/// between them. (Where the mesh is inside out, the two are exchanged.)
-pub fn planes_over_level_faces(mesh: &TriangleMesh, planes: &[i32], slope: f64) -> [Vec<bool>; 2] {
-    let mut level = [vec![false; planes.len()], vec![false; planes.len()]];
+/// Which planes have a nearly level underside of the part in the room just below them: only there can an outline jump
+/// outwards from one plane to the next by more than `slope` times the distance between them.
+pub fn planes_over_undersides(mesh: &TriangleMesh, planes: &[i32], slope: f64) -> Vec<bool> {
     let index = PlaneIndex::new(planes);
-    for face in &mesh.faces {
-        let [x, y, z] = mesh.normal(face);
-        if (x * x + y * y) * slope * slope <= z * z && z != 0.0 {
-            let [a, b, c] = mesh.corners(face);
-            let low = index.up_to(a.z.min(b.z).min(c.z).saturating_sub(1));
-            let high = index.up_to(a.z.max(b.z).max(c.z));
-            level[usize::from(z > 0.0)][low..planes.len().min(high + 1)].fill(true);
-        }
+    let Some(origin) = mesh.vertices.first() else { return vec![false; planes.len()] };
+    // For each piece of the mesh its share of the volume, and the planes over faces that look down and up.
+    type Spans = Vec<(u32, u32)>;
+    let pieces: Vec<(f64, [Spans; 2])> = mesh
+        .faces
+        .par_chunks(PIECE)
+        .map(|faces| {
+            let mut volume = 0.0;
+            let mut spans = [Vec::new(), Vec::new()];
+            for face in faces {
+                let [a, b, c] = mesh.corners(face);
+                let from_a = |to: Point3| [to.x - a.x, to.y - a.y, to.z - a.z].map(f64::from);
+                let (u, v) = (from_a(b), from_a(c));
+                let (x, y, z) =
+                    (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+                volume += z * (f64::from(a.z) + f64::from(b.z) + f64::from(c.z) - 3.0 * f64::from(origin.z));
+                if (x * x + y * y) * slope * slope <= z * z && z != 0.0 {
+                    let low = index.up_to(a.z.min(b.z).min(c.z).saturating_sub(1));
+                    let high = (index.up_to(a.z.max(b.z).max(c.z)) + 1).min(planes.len());
+                    if low < high {
+                        spans[usize::from(z > 0.0)].push((low as u32, high as u32));
+                    }
+                }
+            }
+            (volume, spans)
+        })
+        .collect();
+    // A part whose triangles are inside out has its undersides where they look up.
+    let volume: f64 = pieces.iter().map(|(volume, _)| volume).sum();
+    let side = usize::from(volume < 0.0);
+    let mut level = vec![false; planes.len()];
+    for &(low, high) in pieces.iter().flat_map(|(_, spans)| &spans[side]) {
+        level[low as usize..high as usize].fill(true);
     }
     level
 }
+
+/// How many faces are looked at in one go: the same for any number of threads, since sums of floats depend on it.
+const PIECE: usize = 16_384;

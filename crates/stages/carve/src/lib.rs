@@ -5,7 +5,7 @@ mod loops;
 mod planes;
 
 use rayon::prelude::*;
-use shape::solid::{Sections, planes_over_level_faces};
+use shape::solid::{Sections, planes_over_undersides};
 use shape::{Bounds, Point, Point3, Ring, TriangleMesh};
 use skein::{
     Bead, Choice, Direction, Error, Facts, Machine, Micron, Notes, RotatedLoopLayer, Section, Settings,
@@ -160,9 +160,7 @@ impl Carve {
 
     fn find_bridges(&self, slices: &mut Slices, mesh: &TriangleMesh, planes: &[i32]) {
         let reach = bridge::REACH * self.bead_width.um();
-        let [down, up] = planes_over_level_faces(mesh, planes, reach / self.layer_height.um());
-        // A part whose triangles are inside out has its undersides where they look up.
-        let candidates = if mesh.volume() < 0.0 { up } else { down };
+        let candidates = planes_over_undersides(mesh, planes, reach / self.layer_height.um());
         let directions: Vec<Option<Direction>> = (0..slices.layers.len())
             .into_par_iter()
             .map(|index| {
