@@ -25,7 +25,8 @@ pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>)
         let last = level == fill.walls || next.rings.is_empty();
         // Where the next wall fits everywhere, nothing is too narrow for this one.
         let narrow = next.lost >= step || has_small(&wall, step);
-        let room = if last || narrow { offset_with_loss(&wall, -step / 2.0) } else { Offset::default() };
+        let wanted = narrow || (last && overlap > 0.0);
+        let room = if wanted { offset_with_loss(&wall, -step / 2.0) } else { Offset::default() };
         if narrow && (!last || solid) {
             fill_gaps(&room.rings, &next, step, source, strands);
         }
