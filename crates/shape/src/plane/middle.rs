@@ -30,15 +30,16 @@ pub fn thin_parts(region: &[Ring], core: &Offset, width: f64) -> Vec<MiddleLine>
     if area(region) - area(&grown) < width * width / 16.0 {
         return Vec::new();
     }
-    // Slivers along curves, where shrinking and growing differ by rounding, are no parts.
+    // Slivers along curves, where shrinking and growing differ by rounding, are no parts, nor tails of parts.
     let sliver = width / 50.0;
-    let rest = offset(&boolean::difference(region, &grown), -sliver);
-    let pieces = offset(&rest, sliver);
+    let is_part = |piece: &Vec<Ring>| {
+        let around: f64 = piece.iter().map(Ring::length).sum();
+        area(piece) >= (width * width / 16.0).max(sliver * around / 2.0)
+    };
     let mut lines = Vec::new();
-    for piece in islands(&pieces) {
-        if area(&piece) < width * width / 16.0 {
-            continue;
-        }
+    let rest = islands(&boolean::difference(region, &grown)).into_iter().filter(is_part);
+    let parts = rest.flat_map(|piece| islands(&offset(&offset(&piece, -sliver), sliver))).filter(is_part);
+    for piece in parts {
         let mut found = middle_lines(&piece, region, width);
         // A line ends before the tip; the clay for the tip goes onto the line.
         let covered: f64 = found.iter().map(MiddleLine::area).sum();
