@@ -17,7 +17,7 @@ pub struct Job<'a> {
     pub inside: &'a [Ring],
     /// The direction of the lines.
     pub direction: Direction,
-    /// Which of the two usual directions and spacings it has, if one of them.
+    /// Which of the two directions that layers have by turns it has; none for a bridge.
     pub turn: Option<usize>,
     /// The layers that hide a place from above and below; `None` when all of it is surface.
     pub surroundings: Option<Vec<&'a Source>>,
@@ -45,18 +45,16 @@ impl Job<'_> {
             Surface::default()
         } else {
             let hatch = Hatch::new(self.inside, turned, step);
-            // Layers of the usual directions share the rows of those around them.
-            let own: Vec<Intervals>;
-            let around: Vec<&Intervals> = match self.turn {
-                Some(turn) => surroundings.iter().map(|source| source.rows(turn, turned, step)).collect(),
-                None => {
-                    own = surroundings
-                        .iter()
-                        .map(|source| Intervals::new(&source.edges, turned, step))
-                        .collect();
-                    own.iter().collect()
-                }
-            };
+            // Layers of one direction and spacing share the rows of those around them.
+            let shared = |source: &&Source| self.turn.filter(|_| spacing(&source.bead) == step);
+            let own: Vec<Intervals> = surroundings
+                .iter()
+                .filter(|source| shared(source).is_none())
+                .map(|source| Intervals::new(&source.edges, turned, step))
+                .collect();
+            let rows =
+                surroundings.iter().filter_map(|source| Some(source.rows(shared(source)?, turned, step)));
+            let around: Vec<&Intervals> = rows.chain(&own).collect();
             let surface = Surface::find(&hatch, &around, step);
             for points in hatch.threads(&surface.rows, REACH * step) {
                 self.lay(points, Ratio::ONE, strands);

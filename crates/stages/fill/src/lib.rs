@@ -126,9 +126,7 @@ impl Fill {
         let mut strands: Vec<Strand> = source.middles.clone();
         let inside = walls::lay(source, self, solid, &mut strands);
         let direction = source.bridge.unwrap_or_else(|| self.direction(index));
-        let usual = source.bridge.is_none()
-            && sources.iter().all(|other| strand::spacing(&other.bead) == strand::spacing(&source.bead));
-        let turn = usual.then_some(index % 2);
+        let turn = source.bridge.is_none().then_some(index % 2);
         let job = infill::Job { fill: self, source, inside: &inside, direction, turn, surroundings };
         job.run(index, &mut strands, notes);
         strand::sort_into_islands(&source.outlines, strands)
