@@ -66,9 +66,14 @@ impl V {
 pub(super) struct Curves {
     points: Vec<V>,
     rings: Vec<Tree>,
+    /// A box around every [`GROUP`] rings: a layer of many small parts need not look at all for each.
+    groups: Vec<Box2>,
     /// Which sides are no part of an offset side.
     spokes: Vec<bool>,
 }
+
+/// How many rings share a box.
+const GROUP: usize = 16;
 
 /// How many sides a leaf of the tree holds: few enough to compare all with all, enough to keep the tree small.
 const LEAF: usize = 8;
@@ -100,6 +105,10 @@ impl Box2 {
     fn add(&mut self, point: V) {
         self.low = V { x: self.low.x.min(point.x), y: self.low.y.min(point.y) };
         self.high = V { x: self.high.x.max(point.x), y: self.high.y.max(point.y) };
+    }
+
+    fn holds(&self, point: V) -> bool {
+        (self.low.x..=self.high.x).contains(&point.x) && (self.low.y..=self.high.y).contains(&point.y)
     }
 
     fn meets(&self, other: &Self) -> bool {
@@ -156,7 +165,15 @@ impl Curves {
         for index in spokes {
             self.spokes[start + index] = true;
         }
-        self.rings.push(Tree::new(&self.points, start, end));
+        let tree = Tree::new(&self.points, start, end);
+        if self.rings.len().is_multiple_of(GROUP) {
+            self.groups.push(Box2::EMPTY);
+        }
+        if let (Some(group), Some(bounds)) = (self.groups.last_mut(), tree.boxes.last()) {
+            group.add(bounds.low);
+            group.add(bounds.high);
+        }
+        self.rings.push(tree);
     }
 
     /// The outline of what has a positive winding number.
@@ -437,7 +454,11 @@ impl Curves {
 
     /// How often the curves go round a point, counter-clockwise.
     fn winding(&self, point: V) -> i32 {
-        self.rings.iter().map(|tree| tree.winding(self, tree.levels.len() - 1, 0, point)).sum()
+        // A closed curve does not go round a point outside its box.
+        let near = self.groups.iter().enumerate().filter(|(_, group)| group.holds(point));
+        near.flat_map(|(index, _)| &self.rings[index * GROUP..((index + 1) * GROUP).min(self.rings.len())])
+            .map(|tree| tree.winding(self, tree.levels.len() - 1, 0, point))
+            .sum()
     }
 }
 

@@ -20,19 +20,10 @@ pub fn layers(layers: Vec<Vec<Island>>, fill: &Fill) -> Vec<Vec<Island>> {
 fn layer(mut islands: Vec<Island>, fill: &Fill, sequence: ThreadSequence, here: &mut Point) -> Vec<Island> {
     let mut ordered = Vec::with_capacity(islands.len());
     islands.retain(|island| !island.strands.is_empty());
-    let boxes = |island: &Island| {
-        let points = island.strands.iter().flat_map(|strand| &strand.points);
-        points.fold((Point::new(i32::MAX, i32::MAX), Point::new(i32::MIN, i32::MIN)), |(low, high), point| {
-            (
-                Point::new(low.x.min(point.x), low.y.min(point.y)),
-                Point::new(high.x.max(point.x), high.y.max(point.y)),
-            )
-        })
-    };
     let mut left: Vec<(Island, (Point, Point))> = islands
         .into_iter()
         .map(|island| {
-            let bounds = boxes(&island);
+            let bounds = bounds(island.strands.iter().flat_map(|strand| &strand.points));
             (island, bounds)
         })
         .collect();
@@ -82,22 +73,31 @@ impl Turn {
 }
 
 fn order_island(island: Island, fill: &Fill, sequence: ThreadSequence, here: &mut Point) -> Island {
-    let mut left = island.strands;
+    let mut left: Vec<(Strand, (Point, Point))> = island
+        .strands
+        .into_iter()
+        .map(|strand| {
+            let bounds = bounds(&strand.points);
+            (strand, bounds)
+        })
+        .collect();
     let mut strands = Vec::with_capacity(left.len());
     for turn in turns(sequence) {
         loop {
-            // The nearest place where a strand of this turn may begin.
+            // The nearest place where a strand of this turn may begin. Of most strands the box is too far away already.
             let mut best: Option<(i64, usize, usize)> = None;
-            for (index, strand) in
-                left.iter().enumerate().filter(|(_, strand)| Turn::of(strand.feature) == turn)
-            {
+            for (index, (strand, bounds)) in left.iter().enumerate() {
+                let far = best.is_some_and(|(least, ..)| distance2_to_box(*here, *bounds) >= least);
+                if far || Turn::of(strand.feature) != turn {
+                    continue;
+                }
                 let (gap, at) = nearest_start(strand, *here);
                 if best.is_none_or(|(least, ..)| gap < least) {
                     best = Some((gap, index, at));
                 }
             }
             let Some((_, index, at)) = best else { break };
-            let mut strand = left.swap_remove(index);
+            let (mut strand, _) = left.swap_remove(index);
             if strand.closed {
                 let at = if fill.start == Start::Seam { nearest_start(&strand, fill.seam).1 } else { at };
                 begin_at(&mut strand, at);
@@ -110,6 +110,17 @@ fn order_island(island: Island, fill: &Fill, sequence: ThreadSequence, here: &mu
         }
     }
     Island { strands, ..island }
+}
+
+/// The box around points.
+fn bounds<'a>(points: impl IntoIterator<Item = &'a Point>) -> (Point, Point) {
+    let nothing = (Point::new(i32::MAX, i32::MAX), Point::new(i32::MIN, i32::MIN));
+    points.into_iter().fold(nothing, |(low, high), point| {
+        (
+            Point::new(low.x.min(point.x), low.y.min(point.y)),
+            Point::new(high.x.max(point.x), high.y.max(point.y)),
+        )
+    })
 }
 
 /// How far it is to where a strand can begin, squared, and the index of that point: any corner of a closed strand,

@@ -61,11 +61,17 @@ pub fn sort_into_islands(outlines: &[Ring], strands: Vec<Strand>) -> Vec<Island>
         islands.push(Island::default());
     }
     let areas: Vec<i128> = outsides.iter().map(|index| outlines[*index].area2()).collect();
+    let boxes: Vec<(Point, Point)> =
+        outsides.iter().map(|index| outlines[*index].bounds().unwrap_or_default()).collect();
     // The smallest outside that holds the point: islands may lie in holes of others.
     let home = |point: Option<&Point>| match (outsides.len(), point) {
         (0 | 1, _) | (_, None) => 0,
         (_, Some(point)) => (0..outsides.len())
-            .filter(|island| outlines[outsides[*island]].contains(*point))
+            .filter(|island| {
+                let (low, high) = boxes[*island];
+                let near = (low.x..=high.x).contains(&point.x) && (low.y..=high.y).contains(&point.y);
+                near && outlines[outsides[*island]].contains(*point)
+            })
             .min_by_key(|island| areas[*island])
             .unwrap_or(0),
     };

@@ -113,32 +113,29 @@ const FINENESS: f64 = 200.0;
 
 /// The outline that each wall belongs to: the smallest that holds it, or for the wall of a hole the hole inside it.
 fn homes(outlines: &[Ring], walls: &[Ring]) -> Vec<usize> {
-    let smallest = |wall: &Ring, fits: &dyn Fn(&Ring) -> bool| {
-        let candidates =
-            outlines.iter().enumerate().filter(|(_, outline)| Side::of(outline) == Side::of(wall));
-        let mut found: Option<(usize, i128)> = None;
-        for (index, outline) in candidates {
-            let area = outline.area2().abs();
-            if found.is_none_or(|(_, least)| area < least) && fits(outline) {
-                found = Some((index, area));
-            }
-        }
-        found.map_or(0, |(index, _)| index)
-    };
     if outlines.len() == 1 {
         return vec![0; walls.len()];
     }
-    walls
-        .iter()
-        .map(|wall| match Side::of(wall) {
-            Side::Outer => {
-                smallest(wall, &|outline| wall.0.first().is_some_and(|point| outline.contains(*point)))
-            }
-            Side::Inner => {
-                smallest(wall, &|outline| outline.0.first().is_some_and(|point| wall.contains(*point)))
-            }
-        })
-        .collect()
+    let boxes: Vec<(Point, Point)> =
+        outlines.iter().map(|outline| outline.bounds().unwrap_or_default()).collect();
+    // Smaller ones first, so that the first that fits is the smallest.
+    let mut order: Vec<usize> = (0..outlines.len()).collect();
+    order.sort_by_cached_key(|index| outlines[*index].area2().abs());
+    let (outer, inner): (Vec<usize>, Vec<usize>) =
+        order.into_iter().partition(|index| Side::of(&outlines[*index]) == Side::Outer);
+    let inside = |point: Point, (low, high): (Point, Point)| {
+        (low.x..=high.x).contains(&point.x) && (low.y..=high.y).contains(&point.y)
+    };
+    let home = |wall: &Ring| match (Side::of(wall), wall.0.first(), wall.bounds()) {
+        (Side::Outer, Some(&point), _) => {
+            outer.iter().find(|index| inside(point, boxes[**index]) && outlines[**index].contains(point))
+        }
+        (Side::Inner, _, Some(around)) => inner.iter().find(|index| {
+            outlines[**index].0.first().is_some_and(|point| inside(*point, around) && wall.contains(*point))
+        }),
+        _ => None,
+    };
+    walls.iter().map(|wall| home(wall).copied().unwrap_or(0)).collect()
 }
 
 /// A closed wall: to its first point, round it, and back.
