@@ -107,15 +107,21 @@ fn side_by_side(drawings: &[(String, &str)]) -> Result<String, String> {
     let mut inside = String::new();
     for (svg, word) in drawings {
         let (head, body) = svg.split_once('\n').ok_or("a drawing has no body")?;
-        let window = head.split_once("viewBox=\"").and_then(|(_, rest)| rest.split_once('"'));
-        let (window, _) = window.ok_or("a drawing has no window")?;
+        let said = |name: &str| {
+            let (_, rest) = head.split_once(name)?;
+            rest.split_once('"').map(|(value, _)| value)
+        };
+        let window = said("viewBox=\"").ok_or("a drawing has no window")?;
+        // Outlines take their width from the drawing as a whole.
+        let line = said("stroke-width=\"").ok_or("a drawing has no line")?;
         let sizes: Vec<f64> = window.split(' ').filter_map(|number| number.parse().ok()).collect();
         let [_, _, wide, high] = sizes[..] else { return Err("a drawing has no size".to_owned()) };
         let width = (HEIGHT * wide / high).round();
         // Writing to a string cannot fail.
         let _ = write!(
             inside,
-            "<svg x=\"{x}\" y=\"{}\" width=\"{width}\" height=\"{HEIGHT}\" viewBox=\"{window}\">\n{body}",
+            "<svg x=\"{x}\" y=\"{}\" width=\"{width}\" height=\"{HEIGHT}\" viewBox=\"{window}\" \
+             stroke-width=\"{line}\">\n{body}",
             GAP + words
         );
         if !word.is_empty() {
