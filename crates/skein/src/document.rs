@@ -199,7 +199,7 @@ impl Skein {
             .map(|(index, layer)| {
                 let mut notes = Notes::default();
                 let lines = work(index, layer, &mut notes).map(|lines| Layer { lines });
-                (lines.map_err(|error| place(error, index)), notes)
+                (lines.map_err(|error| error.in_layer(index)), notes)
             })
             .collect();
         for (layer, remarks) in done {
@@ -221,13 +221,8 @@ impl Skein {
             .layers
             .par_iter_mut()
             .enumerate()
-            .map(|(index, layer)| work(index, layer).map_err(|error| place(error, index)))
+            .map(|(index, layer)| work(index, layer).map_err(|error| error.in_layer(index)))
             .collect();
         done.into_iter().collect()
     }
-}
-
-/// An error without a place of its own is about the layer.
-fn place(error: Error, layer: usize) -> Error {
-    if error.place == crate::Place::Whole { error.at(crate::Place::Layer(layer)) } else { error }
 }

@@ -55,6 +55,11 @@ impl Error {
         self
     }
 
+    /// The same error, about a layer unless it knows a nearer place.
+    pub fn in_layer(self, index: usize) -> Self {
+        if self.place == Place::Whole { self.at(Place::Layer(index)) } else { self }
+    }
+
     /// The same error with advice.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());

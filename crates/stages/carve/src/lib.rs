@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use shape::solid::{Sections, planes_over_undersides};
 use shape::{Bounds, Point, Point3, Ring, TriangleMesh};
 use skein::{
-    Bead, Choice, Direction, Error, Facts, Machine, Micron, Notes, RotatedLoopLayer, Section, Settings,
-    Slices,
+    Bead, BedShape, Choice, Direction, Error, Facts, Machine, Micron, Notes, RotatedLoopLayer, Section,
+    Settings, Slices,
 };
 
 /// Cuts a part into layers.
@@ -64,6 +64,7 @@ impl Carve {
         let shift = self.shift(min, max, machine);
         let bounds = Bounds { min: moved(min, shift), max: moved(max, shift) };
         fits(&bounds, machine)?;
+        fits_round_bed(mesh, shift, machine)?;
         // The part is cut where it lies and its loops are moved: a million vertices need not be.
         let planes: Vec<i32> = slabs.iter().map(|slab| slab.middle.0 + min.z).collect();
         let sections = Sections::new(mesh, &planes);
@@ -225,6 +226,31 @@ fn fits(bounds: &Bounds, machine: &Machine) -> Result<(), Error> {
         .hint("carve.place = \"bed\" puts it on the middle of the bed"));
     }
     Ok(())
+}
+
+/// Whether every corner of the part lies on an elliptic bed.
+fn fits_round_bed(mesh: &TriangleMesh, shift: Point3, machine: &Machine) -> Result<(), Error> {
+    if machine.shape == BedShape::Rectangle {
+        return Ok(());
+    }
+    let (left, front) = machine.least();
+    let (half_x, half_y) = (machine.bed.x.um() / 2.0, machine.bed.y.um() / 2.0);
+    let beside = mesh.vertices.iter().find(|vertex| {
+        let x = (f64::from(vertex.x + shift.x) - f64::from(left) - half_x) / half_x;
+        let y = (f64::from(vertex.y + shift.y) - f64::from(front) - half_y) / half_y;
+        x * x + y * y > 1.0
+    });
+    match beside {
+        None => Ok(()),
+        Some(vertex) => Err(Error::new(format!(
+            "the part reaches x {} y {} mm, beside the round bed of {} × {} mm",
+            Micron(vertex.x + shift.x),
+            Micron(vertex.y + shift.y),
+            machine.bed.x,
+            machine.bed.y
+        ))
+        .hint("scale or turn the part, or set machine.bed")),
+    }
 }
 
 #[cfg(test)]

@@ -167,3 +167,15 @@ fn the_drawing_reads_back() {
     let (slices, _) = carve(&block((0.0, 20.0), 20.0, (0.0, 10.0)));
     assert_eq!(Slices::read(&slices.write()).expect("a drawing"), slices);
 }
+
+#[test]
+fn a_part_whose_corners_hang_over_a_round_bed_is_refused() {
+    let part = block((0.0, 150.0), 150.0, (0.0, 10.0));
+    let square = Machine::default();
+    let round = Machine { shape: BedShape::Ellipse, ..Machine::default() };
+    assert!(Carve::default().carve(&part, &square, &mut Notes::default()).is_ok());
+    let error = Carve::default().carve(&part, &round, &mut Notes::default()).expect_err("too large");
+    assert!(error.message.contains("beside the round bed"), "{error}");
+    let small = block((0.0, 140.0), 140.0, (0.0, 10.0));
+    assert!(Carve::default().carve(&small, &round, &mut Notes::default()).is_ok());
+}

@@ -81,7 +81,7 @@ impl Stage for Fill {
         let sources = std::mem::take(&mut skein.layers)
             .into_par_iter()
             .enumerate()
-            .map(|(index, layer)| Source::read(layer, &facts).map_err(|error| place(error, index)))
+            .map(|(index, layer)| Source::read(layer, &facts).map_err(|error| error.in_layer(index)))
             .collect::<Result<Vec<Source>, Error>>()?;
         let planned: Vec<(Vec<Island>, Notes)> = (0..sources.len())
             .into_par_iter()
@@ -142,8 +142,4 @@ impl Fill {
             .map(|layer| sources.get(layer?).filter(|source| !source.outlines.is_empty()))
             .collect()
     }
-}
-
-fn place(error: Error, layer: usize) -> Error {
-    if error.place == skein::Place::Whole { error.at(skein::Place::Layer(layer)) } else { error }
 }
