@@ -3,8 +3,8 @@
 //! A case has the nearest heading above it as its name. Its fences are
 //!
 //! * `toml`, if it wants settings: a profile, in which a section is a stage;
-//! * `skein before` or, for preface, `svg before`;
-//! * `skein after`, for export `gcode after`, or `error`: the error's text, and perhaps a line `hint: …`.
+//! * `skein before` or, for preface and what comes before it, `svg before`;
+//! * `skein after`, for export `gcode after`, for bottom `svg after`, or `error`: the error's text, and perhaps a line `hint: …`.
 //!
 //! A `before` that has no header gets [`HEADER`], and then only the layers are compared. Every case is run from text to
 //! text and in memory. `CLAYFORGE_BLESS=1 cargo test -p all-tests cases` rewrites the last fence of each case that fails.
@@ -18,23 +18,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 /// What a `before` without a header begins with.
-const HEADER: &str = "\
-(<extruderInitialization>)
-(<decimalPlacesCarried> 3 </decimalPlacesCarried>)
-(<layerHeight> 1.5 </layerHeight>)
-(<firstLayerHeight> 1.5 </firstLayerHeight>)
-(<nozzleDiameter> 3.0 </nozzleDiameter>)
-(<eUnit> mm3 </eUnit>)
-(<beadSection> rectangle </beadSection>)
-(<operatingFeedRatePerSecond> 30.0 </operatingFeedRatePerSecond>)
-(<travelFeedRatePerSecond> 60.0 </travelFeedRatePerSecond>)
-(<infillWidth> 3.0 </infillWidth>)
-(<edgeWidth> 3.0 </edgeWidth>)
-(<settings>)
-(</settings>)
-(</extruderInitialization>)
-(<crafting>)
-";
+const HEADER: &str = include_str!("case-header.gcode");
 
 /// What it ends with.
 const END: &str = "(</crafting>)\n";
@@ -60,7 +44,7 @@ struct Case {
     /// What the text before is: `skein` or `svg`.
     kind: String,
     before: String,
-    /// What is expected: `skein`, `gcode` or `error`.
+    /// What is expected: `skein`, `gcode`, `svg` or `error`.
     wanted: String,
     expected: String,
     /// Where the expectation stands in the page.
@@ -132,7 +116,7 @@ fn cases(stage: &str, page: &Path) -> Vec<Case> {
         match fence.info.split_whitespace().collect::<Vec<_>>().as_slice() {
             ["toml"] => settings = (body(), fence.line),
             [kind @ ("skein" | "svg"), "before"] => before = Some(((*kind).to_owned(), body(), fence.line)),
-            [wanted @ ("skein" | "gcode"), "after"] | [wanted @ "error"] => {
+            [wanted @ ("skein" | "gcode" | "svg"), "after"] | [wanted @ "error"] => {
                 let place = format!("{}:{}", page.display(), fence.line);
                 let (kind, before, line) =
                     before.take().unwrap_or_else(|| panic!("{place}: `{wanted}` without a before"));
@@ -262,6 +246,9 @@ impl Case {
     /// The part of what was made that the fence shows.
     fn seen(&self, text: &[u8], input: &str, profile: &Profile) -> Result<String, Error> {
         let whole = String::from_utf8_lossy(text).into_owned();
+        if Form::of(text) == Form::Slices {
+            return Ok(lines(whole.lines().filter(|line| line.trim_start().starts_with("<g id"))));
+        }
         if self.whole() {
             // The lines in which the pipeline signs are not the stage's.
             let own = |line: &&str| {

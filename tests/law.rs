@@ -8,8 +8,8 @@ use proptest::option;
 use proptest::prelude::*;
 use shape::{Bounds, Point, Point3, Ring};
 use skein::{
-    Choice, EUnit, Facts, Field, Kind, Line, Mark, Move, Reader, RotatedLoopLayer, Section, Setting,
-    Settings, Side, Signature, Skein, Slices, Span, Tag, Value, spans,
+    Arc, Center, Choice, EUnit, Facts, Field, Heaters, Kind, Line, Mark, Move, Reader, RotatedLoopLayer,
+    Section, Setting, Settings, Side, Signature, Skein, Slices, Span, Tag, Value, spans,
 };
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Display};
@@ -56,21 +56,7 @@ fn direction() -> impl Strategy<Value = Direction> {
 }
 
 fn tag() -> impl Strategy<Value = Tag> {
-    prop::sample::select(vec![
-        Tag::NestedRing,
-        Tag::BoundaryPerimeter,
-        Tag::Layer,
-        Tag::Edge,
-        Tag::Loop,
-        Tag::Infill,
-        Tag::InfillBoundary,
-        Tag::Middle,
-        Tag::Rotation,
-        Tag::BridgeRotation,
-        Tag::ExtruderInitialization,
-        Tag::Settings,
-        Tag::Crafting,
-    ])
+    prop::sample::select(Tag::ALL.to_vec())
 }
 
 /// A text without a line break, much like a line of a skein, but not always one.
@@ -79,6 +65,9 @@ fn text() -> impl Strategy<Value = String> {
         prop::sample::select(vec![
             "G1",
             "G1 ",
+            "G2 ",
+            "I1",
+            "(<alterationDeleteThisPrefix/>)",
             "X1",
             "Y-2.5",
             "Z.5",
@@ -119,6 +108,10 @@ fn line() -> impl Strategy<Value = Line> {
     prop_oneof![
         8 => (place(), option::of(feed()), option::of(extrusion()))
             .prop_map(|(to, feed, extrusion)| Line::Move(Move { to, feed, extrusion })),
+        2 => (place(), option::of(feed()), option::of(extrusion()), any::<bool>(), center())
+            .prop_map(|(to, feed, extrusion, clockwise, center)| {
+                Line::Arc(Box::new(Arc { step: Move { to, feed, extrusion }, center, clockwise }))
+            }),
         2 => (prop::sample::select(vec![Mark::Boundary, Mark::Infill]), place())
             .prop_map(|(mark, at)| Line::Point(mark, at)),
         2 => Just(Line::On),
@@ -138,6 +131,14 @@ fn line() -> impl Strategy<Value = Line> {
         2 => text().prop_filter_map("a line with a meaning of its own", |text| {
             Reader::default().line(text.as_bytes()).ok().filter(|line| *line != Line::Verbatim("".into()))
         }),
+    ]
+}
+
+fn center() -> impl Strategy<Value = Center> {
+    let micron = || coordinate().prop_map(Micron);
+    prop_oneof![
+        (micron(), micron()).prop_map(|(i, j)| Center::Offset { i, j }),
+        micron().prop_map(Center::Radius)
     ]
 }
 
@@ -176,7 +177,10 @@ fn facts() -> impl Strategy<Value = Facts> {
         option::of(e_unit()),
         option::of(prop::sample::select(Section::ALL)),
         option::of(speed.clone()),
+        option::of(speed.clone()),
+        option::of(speed.clone()),
         option::of(speed),
+        option::of((any::<bool>(), any::<bool>(), any::<bool>())),
     );
     (lengths, rest).prop_map(|(lengths, rest)| Facts {
         layer_height: lengths.0,
@@ -189,6 +193,9 @@ fn facts() -> impl Strategy<Value = Facts> {
         bead_section: rest.2,
         operating_feed: rest.3,
         travel_feed: rest.4,
+        z_feed: rest.5,
+        orbital_feed: rest.6,
+        heaters: rest.7.map(|(nozzle, bed, chamber)| Heaters { nozzle, bed, chamber }),
     })
 }
 

@@ -574,7 +574,9 @@ fn table(print: &Print) -> String {
         "# {}, {}\n\nWhat is behind each stage; `text` is the FNV-1a hash of the whole text.\n\n",
         print.part, print.settings
     );
-    for (index, (stage, made)) in print.run.texts.iter().enumerate() {
+    let works =
+        |stage: &str| print.profile.station(stage).is_none_or(|station| station.active || stage == "export");
+    for (index, (stage, made)) in print.run.texts.iter().filter(|(stage, _)| works(stage)).enumerate() {
         let form = print.profile.station(stage).map_or(Form::Gcode, |station| station.work.forms().1);
         let row = row(stage, form, made);
         if index == 0 {

@@ -61,7 +61,8 @@ fn case(stage: &str, page: &str) -> Result<String, String> {
     let before = if form == "skein" { format!("{HEADER}{before}{FOOTER}") } else { before.to_owned() };
     let settings = page[section..start].find("```toml\n").map_or("", |toml| block(&page[section + toml..]));
     let settings = Source { name: format!("the page of {stage}"), text: settings.to_owned() };
-    let profile = Profile::read(settings, &only_built_in).map_err(say)?;
+    let mut profile = Profile::read(settings, &only_built_in).map_err(say)?;
+    profile.set(&format!("{stage}.active"), "true").map_err(say)?;
     let mut after = Vec::new();
     let mut sink = |piece: &[u8]| {
         after.extend_from_slice(piece);
@@ -78,24 +79,8 @@ fn block(text: &str) -> &str {
     body.find("```").map_or(body, |end| &body[..end])
 }
 
-/// The header that the cases of the pages leave out; `tests/cases.rs` has the same.
-const HEADER: &str = "\
-(<extruderInitialization>)
-(<decimalPlacesCarried> 3 </decimalPlacesCarried>)
-(<layerHeight> 1.5 </layerHeight>)
-(<firstLayerHeight> 1.5 </firstLayerHeight>)
-(<nozzleDiameter> 3.0 </nozzleDiameter>)
-(<eUnit> mm3 </eUnit>)
-(<beadSection> rectangle </beadSection>)
-(<operatingFeedRatePerSecond> 30.0 </operatingFeedRatePerSecond>)
-(<travelFeedRatePerSecond> 60.0 </travelFeedRatePerSecond>)
-(<infillWidth> 3.0 </infillWidth>)
-(<edgeWidth> 3.0 </edgeWidth>)
-(<settings>)
-(</settings>)
-(</extruderInitialization>)
-(<crafting>)
-";
+/// The header that the cases of the pages leave out.
+const HEADER: &str = include_str!("../../tests/case-header.gcode");
 const FOOTER: &str = "(</crafting>)\n";
 
 /// Drawings of equal height in a row, each with a word above it.

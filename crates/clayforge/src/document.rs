@@ -66,6 +66,35 @@ impl fmt::Display for Form {
     }
 }
 
+/// A document that stages take and give back in the same form.
+pub(crate) trait Text: Sized + 'static {
+    /// Its form.
+    const FORM: Form;
+    /// Takes it out; of another document only its form comes back.
+    fn from_document(document: Document) -> Result<Self, Form>;
+    /// Puts it in.
+    fn into_document(self) -> Document;
+}
+
+macro_rules! texts {
+    ($($type:ident)*) => {$(
+        impl Text for $type {
+            const FORM: Form = Form::$type;
+            fn from_document(document: Document) -> Result<Self, Form> {
+                match document {
+                    Document::$type(inner) => Ok(inner),
+                    other => Err(other.form()),
+                }
+            }
+            fn into_document(self) -> Document {
+                Document::$type(self)
+            }
+        }
+    )*};
+}
+
+texts! { Slices Skein }
+
 impl Document {
     /// Its form.
     pub fn form(&self) -> Form {

@@ -118,15 +118,14 @@ fn skein_pictures(
     for (index, layer) in skein.layers.iter().enumerate() {
         if wanted.contains(&index) {
             let bead = facts.bead()?.of_height(layer.height(&facts)?);
-            pictures.push((index, layer, nozzle.clone(), bead));
+            pictures.push((index, layer, nozzle, bead));
         }
         layer.lines.iter().for_each(|line| nozzle.follow(line));
     }
     let count = skein.layers.len();
     Ok(move |_| {
-        let drawn = pictures
-            .iter()
-            .map(|(index, layer, nozzle, bead)| skein_picture(*index, layer, nozzle.clone(), *bead));
+        let drawn =
+            pictures.iter().map(|(index, layer, nozzle, bead)| skein_picture(*index, layer, *nozzle, *bead));
         (count, drawn.collect())
     })
 }
@@ -145,6 +144,13 @@ fn skein_picture(index: usize, layer: &Layer, mut nozzle: Nozzle, bead: Bead) ->
                     run.extend(flat(&nozzle));
                 }
                 run.push(Point::new(step.to.x, step.to.y));
+            }
+            Line::Arc(arc) => {
+                if run.is_empty() {
+                    run.extend(flat(&nozzle));
+                }
+                let from = nozzle.at.unwrap_or(arc.step.to);
+                run.extend(arc.chords(from, 5.0).iter().map(|at| Point::new(at.x, at.y)));
             }
             Line::On | Line::Off | Line::Flow(_) => {
                 end_run(&mut run, &nozzle, bead, &mut picture, &mut travels)
@@ -181,14 +187,18 @@ fn class_of(feature: Feature) -> &'static str {
         Feature::Loop(_) => "loop",
         Feature::Infill => "infill",
         Feature::Middle => "middle",
+        Feature::Skirt => "skirt",
+        Feature::Support => "support",
+        Feature::Raft => "raft",
     }
 }
 
 const STYLE: &str = "path{fill:none;stroke-linecap:round;stroke-linejoin:round}\
 .clay{fill:#c98;stroke:#643;fill-rule:evenodd}\
 .part{stroke:#333}\
-.edge,.loop,.infill,.middle{stroke-opacity:.55}\
+.edge,.loop,.infill,.middle,.skirt,.support,.raft{stroke-opacity:.55}\
 .edge{stroke:#a4472f}.loop{stroke:#d98f4e}.infill{stroke:#5b8f8a}.middle{stroke:#7a55a0}\
+.skirt{stroke:#8a8a3a}.support{stroke:#4d7fb8}.raft{stroke:#8b8f98}\
 .travel{stroke:#e00000}\
 text{font-family:sans-serif;fill:#333}";
 

@@ -63,30 +63,27 @@ impl Figures {
         let mut figures = Self::default();
         let mut area = None;
         for line in &layer.lines {
-            match line {
-                Line::Move(step) => {
-                    let feed = step.feed.or(state.feed);
-                    let length = state.at.map_or(0.0, |from| distance(from, step.to)) / 1000.0;
-                    if state.on == Some(true) {
-                        let area = match area {
-                            Some(area) => area,
-                            None => *area.insert(facts.bead()?.of_height(layer.height(facts)?).area()),
-                        };
-                        figures.extruded_mm += length;
-                        figures.volume_mm3 += length * area * state.flow.unwrap_or(1.0);
-                    } else {
-                        figures.travel_mm += length;
-                        if state.travelling != Some(true) {
-                            figures.travels += 1;
-                        }
-                    }
-                    if let Some(feed) = feed {
-                        figures.time_s += length * 60_000.0 / f64::from(feed.get());
+            if let Some(step) = line.as_move() {
+                let feed = step.feed.or(state.feed);
+                let length = state.at.map_or(0.0, |from| line.length(from)) / 1000.0;
+                if state.on == Some(true) {
+                    let area = match area {
+                        Some(area) => area,
+                        None => *area.insert(facts.bead()?.of_height(layer.height(facts)?).area()),
+                    };
+                    figures.extruded_mm += length;
+                    figures.volume_mm3 += length * area * state.flow.unwrap_or(1.0);
+                } else {
+                    figures.travel_mm += length;
+                    if state.travelling != Some(true) {
+                        figures.travels += 1;
                     }
                 }
-                Line::On => figures.threads += 1,
-                _ => {}
+                if let Some(feed) = feed {
+                    figures.time_s += length * 60_000.0 / f64::from(feed.get());
+                }
             }
+            figures.threads += usize::from(*line == Line::On);
             state.follow(line);
         }
         figures.layers = usize::from(figures.extruded_mm > 0.0);
@@ -102,12 +99,6 @@ impl Figures {
         self.volume_mm3 += other.volume_mm3;
         self.time_s += other.time_s;
     }
-}
-
-fn distance(from: Point3, to: Point3) -> f64 {
-    let side = |a: i32, b: i32| f64::from(a) - f64::from(b);
-    let (x, y, z) = (side(from.x, to.x), side(from.y, to.y), side(from.z, to.z));
-    (x * x + y * y + z * z).sqrt()
 }
 
 /// What the nozzle is doing, as far as the lines seen so far say it. (The view [`skein::Nozzle`] knows no "not said
@@ -134,12 +125,13 @@ impl State {
 
     #[inline]
     fn follow(&mut self, line: &Line) {
+        if let Some(step) = line.as_move() {
+            self.at = Some(step.to);
+            self.feed = step.feed.or(self.feed);
+            self.travelling = self.on.map(|on| !on);
+            return;
+        }
         match line {
-            Line::Move(step) => {
-                self.at = Some(step.to);
-                self.feed = step.feed.or(self.feed);
-                self.travelling = self.on.map(|on| !on);
-            }
             Line::On => self.on = Some(true),
             Line::Off => self.on = Some(false),
             Line::Flow(flow) => self.flow = Some(flow.f64()),

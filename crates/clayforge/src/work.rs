@@ -1,7 +1,9 @@
 //! A stage whose type is forgotten: what the table makes and the pipeline runs.
 
+use crate::document::Text;
 use crate::{Document, Form};
 use skein::{Error, Field, Machine, Notes, SettingError, Settings, Stage, Value};
+use std::marker::PhantomData;
 
 /// Where pieces of the finished file go; an error stops the writing.
 pub type Sink<'a> = &'a mut dyn FnMut(&[u8]) -> Result<(), Error>;
@@ -58,14 +60,25 @@ pub trait Work: Send + Sync {
     fn copy(&self) -> Box<dyn Work>;
 }
 
-fn wrong_form(wanted: Form, document: &Document) -> Error {
-    Error::new(format!("the stage reads {wanted}, and this is {}", document.form()))
+fn wrong_form(wanted: Form, found: Form) -> Error {
+    Error::new(format!("the stage reads {wanted}, and this is {found}"))
         .hint("the order of the stages: clayforge stages")
 }
 
-/// Stages from skein to skein.
-#[derive(Clone, Default)]
-pub(crate) struct OnSkein<S>(S);
+/// Stages that keep the form of the document.
+pub(crate) struct On<D, S>(S, PhantomData<fn(D)>);
+
+impl<D, S: Clone> Clone for On<D, S> {
+    fn clone(&self) -> Self {
+        Self(self.0.clone(), PhantomData)
+    }
+}
+
+impl<D, S: Default> Default for On<D, S> {
+    fn default() -> Self {
+        Self(S::default(), PhantomData)
+    }
+}
 
 /// The part of [`Work`] that is the same for every stage.
 macro_rules! settings_of {
@@ -82,17 +95,15 @@ macro_rules! settings_of {
     };
 }
 
-impl<S: Stage> Work for OnSkein<S> {
+impl<D: Text, S: Stage<D>> Work for On<D, S> {
     settings_of!(0);
 
     fn forms(&self) -> (Form, Form) {
-        (Form::Skein, Form::Skein)
+        (D::FORM, D::FORM)
     }
     fn work(&self, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
-        match document {
-            Document::Skein(skein) => self.0.craft(skein, bench.notes).map(Document::Skein),
-            other => Err(wrong_form(Form::Skein, &other)),
-        }
+        let document = D::from_document(document).map_err(|found| wrong_form(D::FORM, found))?;
+        self.0.craft(document, bench.notes).map(D::into_document)
     }
 }
 
@@ -109,7 +120,7 @@ impl Work for Special<carve::Carve> {
     fn work(&self, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
         match document {
             Document::Mesh(mesh) => self.0.carve(&mesh, bench.machine, bench.notes).map(Document::Slices),
-            other => Err(wrong_form(Form::Mesh, &other)),
+            other => Err(wrong_form(Form::Mesh, other.form())),
         }
     }
 }
@@ -123,7 +134,7 @@ impl Work for Special<preface::Preface> {
     fn work(&self, document: Document, _bench: &mut Bench<'_>) -> Result<Document, Error> {
         match document {
             Document::Slices(slices) => self.0.craft(&slices).map(Document::Skein),
-            other => Err(wrong_form(Form::Slices, &other)),
+            other => Err(wrong_form(Form::Slices, other.form())),
         }
     }
 }
@@ -137,7 +148,7 @@ impl Work for Special<export::Export> {
     fn work(&self, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
         match document {
             Document::Skein(skein) => self.0.export(skein, bench.notes, bench.sink).map(|()| Document::Gcode),
-            other => Err(wrong_form(Form::Skein, &other)),
+            other => Err(wrong_form(Form::Skein, other.form())),
         }
     }
 }

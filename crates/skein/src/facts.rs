@@ -1,6 +1,6 @@
 //! What later stages must know: every fact has one name, one type and one place, here.
 
-use crate::{Choice, EUnit, Error};
+use crate::{Choice, EUnit, Error, Heaters};
 use std::fmt;
 use std::str::FromStr;
 use unit::{Feed, Micron};
@@ -161,12 +161,18 @@ facts! {
     nozzle: Micron = "nozzleDiameter", "carve", positive, show;
     /// What one unit of E is.
     e_unit: EUnit = "eUnit", "carve", read, show;
+    /// What the machine can heat.
+    heaters: Heaters = "heaters", "carve", read, show;
     /// The form of a bead's cross-section.
     bead_section: Section = "beadSection", "carve", choice_of, word_of;
     /// The speed at which beads are laid.
     operating_feed: Feed = "operatingFeedRatePerSecond", "speed", feed_of, show_feed;
     /// The speed of travels.
     travel_feed: Feed = "travelFeedRatePerSecond", "speed", feed_of, show_feed;
+    /// The speed of going around while something is waited for.
+    orbital_feed: Feed = "orbitalFeedRatePerSecond", "speed", feed_of, show_feed;
+    /// The fastest that the machine goes up or down.
+    z_feed: Feed = "maximumZFeedRatePerSecond", "speed", feed_of, show_feed;
     /// The distance between neighbouring beads.
     infill_width: Micron = "infillWidth", "carve", positive, show;
     /// The width of a bead.

@@ -8,6 +8,7 @@
 //! [`Facts`] entry. Every quantity is an integer of its last printed decimal, so reading undoes writing and a chain
 //! run in memory gives the bytes of a chain of Unix filters.
 
+mod arc;
 mod document;
 mod error;
 mod facts;
@@ -23,17 +24,18 @@ mod stage;
 mod svg;
 mod verify;
 
+pub use arc::{Arc, Center};
 pub use document::{Layer, Signature, Skein};
 pub use error::{Error, Place};
 pub use facts::{Bead, Facts, Section};
 pub use line::{Feature, Line, Mark, Move, Reader, Side, Tag};
-pub use machine::{Bed, BedShape, EUnit, Machine, Origin};
+pub use machine::{Bed, BedShape, EUnit, Heaters, Machine, Origin};
 pub use notes::{Note, Notes};
 pub use nozzle::{Nozzle, Span, boundary, spans};
 pub use settings::{Choice, Field, Kind, Setting, SettingError, Settings, Value};
 pub use skein_derive::{Choice, Settings};
 pub use slices::{RotatedLoopLayer, Slices};
-pub use stage::{Craft, Stage};
+pub use stage::Stage;
 
 pub use shape::{Point, Point3, Ring};
 pub use unit::{Angle, Direction, Extrusion, Feed, Micron, Ratio};

@@ -1,6 +1,6 @@
 //! A line of the skein, its printer and its reader side by side.
 
-use crate::Error;
+use crate::{Arc, Center, Error};
 use shape::Point3;
 use unit::{Direction, Extrusion, Feed, Micron, Ratio};
 
@@ -9,6 +9,8 @@ use unit::{Direction, Extrusion, Feed, Micron, Ratio};
 pub enum Line {
     /// `G1 X Y Z F E`: a straight move to a place.
     Move(Move),
+    /// `G2` or `G3`: a move along a piece of a circle.
+    Arc(Box<Arc>),
     /// `(<boundaryPoint> X Y Z </boundaryPoint>)` and its kin: a point of an outline.
     Point(Mark, Point3),
     /// `M101`: clay flows from here.
@@ -31,6 +33,8 @@ pub enum Line {
     Close(Tag),
     /// `(<layerHeight> 1.5 </layerHeight>)`: a named value.
     Value(Box<(Box<str>, Box<str>)>),
+    /// `(<alterationDeleteThisPrefix/>)G28`: a line of the potter's own for the machine, which no stage takes for its own.
+    Pasted(Box<str>),
     /// Anything else, to the byte.
     Verbatim(Box<str>),
 }
@@ -50,6 +54,16 @@ impl Move {
     /// A move to a place, at no stated speed.
     pub fn to(to: Point3) -> Self {
         Self { to, feed: None, extrusion: None }
+    }
+
+    /// How long it is from a place, in microns.
+    #[inline]
+    pub fn length(&self, from: Point3) -> f64 {
+        let square = |from: i32, to: i32| {
+            let difference = (i64::from(to) - i64::from(from)) as f64;
+            difference * difference
+        };
+        (square(from.x, self.to.x) + square(from.y, self.to.y) + square(from.z, self.to.z)).sqrt()
     }
 }
 
@@ -82,6 +96,12 @@ pub enum Feature {
     Infill,
     /// A bead on the middle of a part too thin for two.
     Middle,
+    /// Around the part, to prime the nozzle or to hold the part on the bed.
+    Skirt,
+    /// Under what would hang in the air.
+    Support,
+    /// Under the whole part.
+    Raft,
 }
 
 /// Gives the blocks of the grammar (stages.md §2.2) their names.
@@ -91,6 +111,9 @@ macro_rules! tags {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
         pub enum Tag { $($(#[doc = $doc])+ $variant,)* }
         impl Tag {
+            /// All of them.
+            pub const ALL: &[Self] = &[$(Self::$variant,)*];
+
             /// The name as it stands between the angle brackets.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name,)* }
@@ -128,6 +151,14 @@ tags! {
     ExtruderInitialization = "extruderInitialization";
     /// The settings that were used.
     Settings = "settings";
+    /// Lines around the part.
+    Skirt = "skirt";
+    /// What holds up an overhang.
+    Support = "supportLayer";
+    /// What the part stands on.
+    Raft = "raft";
+    /// Lines of the potter's own.
+    Alteration = "alteration";
     /// All layers.
     Crafting = "crafting";
 }
@@ -164,18 +195,46 @@ impl Line {
         Ok(Self::Value(Box::new((name.into(), value.into()))))
     }
 
-    /// The move, if it is one.
+    /// Where it goes, how fast, and what it pushes, if it is a move; an arc is one, too.
+    #[inline]
     pub fn as_move(&self) -> Option<&Move> {
         match self {
             Self::Move(step) => Some(step),
+            Self::Arc(arc) => Some(&arc.step),
             _ => None,
+        }
+    }
+
+    /// The same, to be changed.
+    #[inline]
+    pub fn as_move_mut(&mut self) -> Option<&mut Move> {
+        match self {
+            Self::Move(step) => Some(step),
+            Self::Arc(arc) => Some(&mut arc.step),
+            _ => None,
+        }
+    }
+
+    /// How long the way is from a place to the end of this move, in microns; nothing for other lines. The way up
+    /// counts, too: a spiral climbs while it lays.
+    #[inline]
+    pub fn length(&self, from: Point3) -> f64 {
+        match self {
+            Self::Move(step) => step.length(from),
+            Self::Arc(arc) => arc.length(from),
+            _ => 0.0,
         }
     }
 
     /// Appends the line without a line break.
     pub fn write(&self, out: &mut Vec<u8>) {
         match self {
-            Self::Move(step) => step.write(out),
+            Self::Move(step) => {
+                out.extend_from_slice(b"G1");
+                step.place(out);
+                step.rest(out);
+            }
+            Self::Arc(arc) => arc.write(out),
             Self::Point(mark, at) => {
                 bracket(out, mark.tag());
                 out.extend_from_slice(b" X");
@@ -223,16 +282,27 @@ impl Line {
                 out.extend_from_slice(pair.1.as_bytes());
                 close(out, &pair.0);
             }
+            Self::Pasted(text) => {
+                out.extend_from_slice(PASTED);
+                out.extend_from_slice(text.as_bytes());
+            }
             Self::Verbatim(text) => out.extend_from_slice(text.as_bytes()),
         }
     }
 }
 
+/// What protects a line of the potter's own from the stages.
+const PASTED: &[u8] = b"(<alterationDeleteThisPrefix/>)";
+
 impl Move {
     #[inline]
-    fn write(&self, out: &mut Vec<u8>) {
-        out.extend_from_slice(b"G1 X");
+    fn place(&self, out: &mut Vec<u8>) {
+        out.extend_from_slice(b" X");
         axes(out, self.to);
+    }
+
+    #[inline]
+    fn rest(&self, out: &mut Vec<u8>) {
         if let Some(feed) = self.feed {
             out.extend_from_slice(b" F");
             feed.write(out);
@@ -241,6 +311,26 @@ impl Move {
             out.extend_from_slice(b" E");
             extrusion.write(out);
         }
+    }
+}
+
+impl Arc {
+    fn write(&self, out: &mut Vec<u8>) {
+        out.extend_from_slice(if self.clockwise { b"G2" } else { b"G3" });
+        self.step.place(out);
+        match self.center {
+            Center::Offset { i, j } => {
+                out.extend_from_slice(b" I");
+                i.write(out);
+                out.extend_from_slice(b" J");
+                j.write(out);
+            }
+            Center::Radius(radius) => {
+                out.extend_from_slice(b" R");
+                radius.write(out);
+            }
+        }
+        self.step.rest(out);
     }
 }
 
@@ -286,6 +376,15 @@ impl Reader {
         if let Some(rest) = text.strip_prefix(b"G1 ") {
             return self.move_line(rest);
         }
+        if let Some(rest) = text.strip_prefix(b"G2 ").or_else(|| text.strip_prefix(b"G3 ")) {
+            return self.arc_line(rest, text[1] == b'2');
+        }
+        if let Some(rest) = text.strip_prefix(PASTED) {
+            return match std::str::from_utf8(rest) {
+                Ok(rest) => Ok(Line::Pasted(rest.into())),
+                Err(_) => Err(Error::new("the line is not UTF-8 text")),
+            };
+        }
         if let Some(rest) = text.strip_prefix(b"(<") {
             if let Some(line) = self.tag_line(rest)? {
                 return Ok(line);
@@ -306,7 +405,35 @@ impl Reader {
         }
     }
 
-    fn move_line(&mut self, mut rest: &[u8]) -> Result<Line, Error> {
+    fn move_line(&mut self, rest: &[u8]) -> Result<Line, Error> {
+        self.words(rest, |_, _| false).map(Line::Move)
+    }
+
+    fn arc_line(&mut self, rest: &[u8], clockwise: bool) -> Result<Line, Error> {
+        let (mut i, mut j, mut radius) = (None, None, None);
+        let step = self.words(rest, |letter, length| {
+            match letter {
+                b'I' => i = Some(length),
+                b'J' => j = Some(length),
+                b'R' => radius = Some(length),
+                _ => return false,
+            }
+            true
+        })?;
+        let center = match (i, j, radius) {
+            (None, None, Some(radius)) => Center::Radius(radius),
+            (None, None, None) => {
+                return Err(Error::new("an arc has no centre").hint("give I and J, or R"));
+            }
+            (i, j, None) => Center::Offset { i: i.unwrap_or_default(), j: j.unwrap_or_default() },
+            _ => return Err(Error::new("an arc has two centres").hint("give I and J, or R")),
+        };
+        Ok(Line::Arc(Box::new(Arc { step, center, clockwise })))
+    }
+
+    /// The words of a move; lengths that are not its own are offered to `other`.
+    #[inline]
+    fn words(&mut self, mut rest: &[u8], mut other: impl FnMut(u8, Micron) -> bool) -> Result<Move, Error> {
         let (mut feed, mut extrusion) = (None, None);
         loop {
             rest = rest.trim_ascii_start();
@@ -319,7 +446,7 @@ impl Reader {
                 lossy(&rest[..end])
             };
             let places = match letter {
-                b'X' | b'Y' | b'Z' | b'F' => 3,
+                b'X' | b'Y' | b'Z' | b'F' | b'I' | b'J' | b'R' => 3,
                 b'E' => Extrusion::PLACES,
                 _ => {
                     return Err(Error::new(format!("`{}` is no word of a move", word()))
@@ -341,11 +468,17 @@ impl Reader {
                     feed.is_some()
                 }
                 _ => {
-                    let place = Micron::from_places(value).map(|length| length.0);
-                    match letter {
-                        b'X' => self.x = place,
-                        b'Y' => self.y = place,
-                        _ => self.z = place,
+                    let length = Micron::from_places(value);
+                    let place = length.map(|length| length.0);
+                    match (letter, length) {
+                        (b'X', _) => self.x = place,
+                        (b'Y', _) => self.y = place,
+                        (b'Z', _) => self.z = place,
+                        (_, Some(length)) if !other(letter, length) => {
+                            return Err(Error::new(format!("`{}` is no word of a straight move", word()))
+                                .hint("G1 knows X, Y, Z, F and E"));
+                        }
+                        _ => {}
                     }
                     place.is_some()
                 }
@@ -356,7 +489,7 @@ impl Reader {
             rest = &number[length..];
         }
         match (self.x, self.y, self.z) {
-            (Some(x), Some(y), Some(z)) => Ok(Line::Move(Move { to: Point3 { x, y, z }, feed, extrusion })),
+            (Some(x), Some(y), Some(z)) => Ok(Move { to: Point3 { x, y, z }, feed, extrusion }),
             _ => {
                 Err(Error::new("a move leaves out an axis before any move has set it")
                     .hint("give X, Y and Z"))
@@ -457,6 +590,32 @@ mod tests {
     }
 
     #[test]
+    fn an_arc_has_an_absolute_end_and_a_centre_from_its_start() {
+        let mut reader = Reader::default();
+        reader.line(b"G1 X10.0 Y0.0 Z1.0").expect("whole move");
+        for (text, canonical) in [
+            ("G3 X0 Y10 I-10 J0 F600", "G3 X0.0 Y10.0 Z1.0 I-10.0 J0.0 F600.0"),
+            ("G2 X10.0 Y0.0 Z1.0 R-10 E2.5", "G2 X10.0 Y0.0 Z1.0 R-10.0 E2.5"),
+        ] {
+            let mut written = Vec::new();
+            reader.line(text.as_bytes()).expect("an arc").write(&mut written);
+            assert_eq!(written, canonical.as_bytes());
+        }
+        assert!(reader.line(b"G2 X0 Y0").is_err());
+        assert!(reader.line(b"G2 X0 Y0 I1 R1").is_err());
+    }
+
+    #[test]
+    fn a_pasted_line_is_no_move() {
+        let text = b"(<alterationDeleteThisPrefix/>)G1 X5 ; mine";
+        let line = Reader::default().line(text).expect("any line");
+        assert_eq!(line, Line::Pasted("G1 X5 ; mine".into()));
+        let mut written = Vec::new();
+        line.write(&mut written);
+        assert_eq!(written, text);
+    }
+
+    #[test]
     fn a_word_that_is_no_number_is_an_error() {
         let mut reader = Reader::default();
         for text in [
@@ -466,6 +625,8 @@ mod tests {
             "G1 X0 Y0 Z99999999",
             "M108 Sfull",
             "(<layer> high )",
+            "G1 X0 Y0 Z0 I1",
+            "G2 X1 Y1 I1 J0",
         ] {
             assert!(reader.line(text.as_bytes()).is_err(), "{text}");
         }

@@ -24,6 +24,9 @@ pub struct Machine {
     /// { per_mm = value } for this much E on every millimetre of a bead of nominal size.
     #[setting(default = EUnit::Mm3, min = 0.000001, max = 100000.0)]
     pub e_unit: EUnit,
+    /// What the printer can heat: any of "nozzle", "bed", "chamber". Clay wants none; a chamber may be drying air.
+    #[setting(default = Heaters::default())]
+    pub heaters: Heaters,
 }
 
 impl Machine {
@@ -142,6 +145,72 @@ impl Setting for EUnit {
             Self::Filament(diameter) => named("filament", diameter.mm()),
             Self::PerMm(millionths) => named("per_mm", f64::from(millionths) / 1e6),
         }
+    }
+}
+
+/// What a machine can heat.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Heaters {
+    /// The nozzle.
+    pub nozzle: bool,
+    /// The bed.
+    pub bed: bool,
+    /// The air around the part.
+    pub chamber: bool,
+}
+
+impl Heaters {
+    const WORDS: [&str; 3] = ["nozzle", "bed", "chamber"];
+
+    fn of(self) -> [bool; 3] {
+        [self.nozzle, self.bed, self.chamber]
+    }
+
+    fn words(self) -> impl Iterator<Item = &'static str> {
+        Self::WORDS.into_iter().zip(self.of()).filter_map(|(word, has)| has.then_some(word))
+    }
+
+    fn from_words<'a>(words: impl Iterator<Item = &'a str>) -> Option<Self> {
+        let mut heaters = Self::default();
+        for word in words {
+            match word {
+                "nozzle" => heaters.nozzle = true,
+                "bed" => heaters.bed = true,
+                "chamber" => heaters.chamber = true,
+                _ => return None,
+            }
+        }
+        Some(heaters)
+    }
+}
+
+impl Setting for Heaters {
+    const KIND: Kind = Kind::Form("[\"nozzle\", \"bed\", \"chamber\"] or fewer");
+    fn read(value: &Value) -> Result<Self, String> {
+        let refuse = || "is not a list of \"nozzle\", \"bed\", \"chamber\"".to_owned();
+        let Value::List(values) = value else { return Err(refuse()) };
+        let words = values.iter().map(|value| match value {
+            Value::Text(word) => word.as_str(),
+            _ => "",
+        });
+        Self::from_words(words).ok_or_else(refuse)
+    }
+    fn show(&self) -> Value {
+        Value::List(self.words().map(|word| Value::Text(word.to_owned())).collect())
+    }
+}
+
+impl fmt::Display for Heaters {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let words: Vec<&str> = self.words().collect();
+        f.write_str(if words.is_empty() { "none".to_owned() } else { words.join(" ") }.as_str())
+    }
+}
+
+impl FromStr for Heaters {
+    type Err = ();
+    fn from_str(text: &str) -> Result<Self, ()> {
+        Self::from_words(text.split(' ').filter(|word| *word != "none")).ok_or(())
     }
 }
 

@@ -1,11 +1,12 @@
 //! Views: where the nozzle is, and which lines belong together.
 
-use crate::{Feature, Line, Mark, Side, Tag};
+use crate::{Feature, Line, Mark, Side, Skein, Tag};
+use rayon::prelude::*;
 use shape::{Point, Point3, Ring};
 use unit::{Feed, Ratio};
 
 /// What the nozzle is doing. Fed every line in order, it knows where it is, whether clay flows, and what for.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Nozzle {
     /// Where it stands; unknown before the first move.
     pub at: Option<Point3>,
@@ -29,20 +30,78 @@ impl Nozzle {
     /// Takes note of one line.
     #[inline]
     pub fn follow(&mut self, line: &Line) {
+        if let Some(step) = line.as_move() {
+            self.at = Some(step.to);
+            self.feed = step.feed.or(self.feed);
+            return;
+        }
         match line {
-            Line::Move(step) => {
-                self.at = Some(step.to);
-                self.feed = step.feed.or(self.feed);
-            }
             Line::On => self.on = true,
             Line::Off => self.on = false,
             Line::Flow(flow) => self.flow = *flow,
             Line::Wall(Tag::Edge, side) => self.feature = Feature::Edge(*side),
             Line::Wall(Tag::Loop, side) => self.feature = Feature::Loop(*side),
             Line::Open(Tag::Infill) => self.feature = Feature::Infill,
-            Line::Close(Tag::Edge | Tag::Loop | Tag::Infill) => self.feature = Feature::Middle,
+            Line::Open(Tag::Skirt) => self.feature = Feature::Skirt,
+            Line::Open(Tag::Support) => self.feature = Feature::Support,
+            Line::Open(Tag::Raft) => self.feature = Feature::Raft,
+            Line::Close(Tag::Edge | Tag::Loop | Tag::Infill | Tag::Skirt | Tag::Support | Tag::Raft) => {
+                self.feature = Feature::Middle;
+            }
             _ => {}
         }
+    }
+
+    fn change(&mut self, change: &Change) {
+        self.at = change.at.or(self.at);
+        self.on = change.on.unwrap_or(self.on);
+        self.flow = change.flow.unwrap_or(self.flow);
+        self.feed = change.feed.or(self.feed);
+    }
+}
+
+/// What some lines change of a nozzle, whatever stood before them.
+struct Change {
+    at: Option<Point3>,
+    on: Option<bool>,
+    flow: Option<Ratio>,
+    feed: Option<Feed>,
+}
+
+impl Change {
+    /// Looked for from the end, where nearly everything stands.
+    fn of(lines: &[Line]) -> Self {
+        let moves = || lines.iter().rev().filter_map(Line::as_move);
+        Self {
+            at: moves().next().map(|step| step.to),
+            on: lines.iter().rev().find_map(|line| match line {
+                Line::On => Some(true),
+                Line::Off => Some(false),
+                _ => None,
+            }),
+            flow: lines.iter().rev().find_map(|line| match line {
+                Line::Flow(flow) => Some(*flow),
+                _ => None,
+            }),
+            feed: moves().find_map(|step| step.feed),
+        }
+    }
+}
+
+impl Skein {
+    /// The nozzle as each layer finds it, and behind the last layer as the tail finds it: what a stage needs that works
+    /// on layers side by side.
+    pub fn nozzles(&self) -> Vec<Nozzle> {
+        let changes: Vec<Change> = self.layers.par_iter().map(|layer| Change::of(&layer.lines)).collect();
+        let mut nozzle = Nozzle::default();
+        nozzle.change(&Change::of(&self.head));
+        let mut nozzles = Vec::with_capacity(changes.len() + 1);
+        for change in &changes {
+            nozzles.push(nozzle);
+            nozzle.change(change);
+        }
+        nozzles.push(nozzle);
+        nozzles
     }
 }
 
@@ -64,14 +123,16 @@ pub fn spans(lines: &[Line]) -> impl Iterator<Item = Span<'_>> {
         let (first, _) = rest.split_first()?;
         let length = match first {
             Line::On => rest.iter().position(|line| *line == Line::Off).map_or(rest.len(), |end| end + 1),
-            Line::Move(_) => rest.iter().position(|line| line.as_move().is_none()).unwrap_or(rest.len()),
+            line if line.as_move().is_some() => {
+                rest.iter().position(|line| line.as_move().is_none()).unwrap_or(rest.len())
+            }
             _ => 1,
         };
         let (span, after) = rest.split_at(length);
         rest = after;
         Some(match first {
             Line::On => Span::Thread(span),
-            Line::Move(_) => Span::Travel(span),
+            line if line.as_move().is_some() => Span::Travel(span),
             line => Span::Other(line),
         })
     })
@@ -104,6 +165,9 @@ impl Feature {
             Self::Loop(side) => (Line::Wall(Tag::Loop, side), Line::Close(Tag::Loop)),
             Self::Infill => (Line::Open(Tag::Infill), Line::Close(Tag::Infill)),
             Self::Middle => (Line::Open(Tag::Middle), Line::Close(Tag::Middle)),
+            Self::Skirt => (Line::Open(Tag::Skirt), Line::Close(Tag::Skirt)),
+            Self::Support => (Line::Open(Tag::Support), Line::Close(Tag::Support)),
+            Self::Raft => (Line::Open(Tag::Raft), Line::Close(Tag::Raft)),
         }
     }
 }

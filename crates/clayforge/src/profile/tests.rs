@@ -98,12 +98,17 @@ fn the_starter_reads_with_and_without_its_marks() {
         .map(|line| match line.strip_prefix("# ") {
             // An assignment or a line of a text in three quotes, not a sentence.
             Some(rest) if rest.split_once(" = ").is_some_and(|(key, _)| !key.contains(' ')) => rest,
-            Some(rest) if rest.ends_with("\"\"\"") || rest.starts_with('G') => rest,
+            Some(rest) if rest.ends_with("\"\"\"") || is_command(rest) => rest,
             _ => line,
         })
         .collect();
     let bare = bare.join("\n");
     read(&bare).unwrap_or_else(|error| panic!("{error}\n{bare}"));
+}
+
+/// `G1 Z10`, and no sentence that begins with a G.
+fn is_command(line: &str) -> bool {
+    line.starts_with(['G', 'M']) && line.as_bytes().get(1).is_some_and(u8::is_ascii_digit)
 }
 
 #[test]

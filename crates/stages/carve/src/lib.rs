@@ -136,6 +136,7 @@ impl Carve {
             first_layer_height: Some(self.first_layer_height),
             nozzle: Some(machine.nozzle),
             e_unit: Some(machine.e_unit),
+            heaters: Some(machine.heaters),
             bead_section: Some(self.bead_section),
             infill_width: Some(bead.spacing()),
             bead_width: Some(self.bead_width),

@@ -4,9 +4,9 @@ mod meter;
 #[cfg(test)]
 mod tests;
 
-use meter::{Change, Meter, Nozzle, Total};
+use meter::{Meter, Total};
 use rayon::prelude::*;
-use skein::{Choice, Error, Layer, Line, Notes, Place, Ratio, Reader, Settings, Skein, Stage, Tag};
+use skein::{Choice, Error, Line, Notes, Nozzle, Place, Ratio, Reader, Settings, Skein, Stage, Tag};
 
 /// Puts an E word on every move that lays clay.
 #[derive(Clone, Debug, Settings)]
@@ -39,10 +39,8 @@ impl Stage for Dimension {
         let meter = Meter::new(&facts, self.flow, self.counting)?;
         let usual = facts.layer_height()?;
 
-        let mut nozzle = Nozzle::default();
-        let mut below = meter.write(&mut skein.head, usual, nozzle, Total::default())?;
-        nozzle = nozzle.after(Change::of(&skein.head));
-        let nozzles = entering(&mut nozzle, &skein.layers);
+        let nozzles = skein.nozzles();
+        let mut below = meter.write(&mut skein.head, usual, Nozzle::default(), Total::default())?;
         let clay: Vec<Result<Total, Error>> = skein
             .layers
             .par_iter()
@@ -58,7 +56,7 @@ impl Stage for Dimension {
             let height = layer.height(&facts)?;
             meter.write(&mut layer.lines, height, nozzles[index], bases[index]).map(|_| ())
         })?;
-        meter.write(&mut skein.tail, usual, nozzle, below)?;
+        meter.write(&mut skein.tail, usual, nozzles[skein.layers.len()], below)?;
         self.announce(&mut skein)?;
         Ok(skein)
     }
@@ -79,14 +77,4 @@ impl Dimension {
         skein.head.splice(index..index, lines);
         Ok(())
     }
-}
-
-/// Where the nozzle is and how much flows when each layer begins; afterwards `nozzle` is what the last layer leaves.
-fn entering(nozzle: &mut Nozzle, layers: &[Layer]) -> Vec<Nozzle> {
-    let changes: Vec<Change> = layers.par_iter().map(|layer| Change::of(&layer.lines)).collect();
-    let step = |change| {
-        let next = nozzle.after(change);
-        std::mem::replace(nozzle, next)
-    };
-    changes.into_iter().map(step).collect()
 }

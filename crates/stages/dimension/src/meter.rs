@@ -1,7 +1,7 @@
 //! Clay by length: what each move pushes, and the sums that do not drift.
 
 use crate::Counting;
-use skein::{Bead, EUnit, Error, Extrusion, Facts, Line, Micron, Point3, Ratio};
+use skein::{Bead, EUnit, Error, Extrusion, Facts, Line, Micron, Nozzle, Ratio};
 use std::ops::Add;
 
 /// Sums beyond this are no longer exact to the last decimal: 90 000 million E units.
@@ -17,13 +17,6 @@ pub(crate) struct Meter {
     counting: Counting,
 }
 
-/// Where the nozzle is, and the share of the nominal section that flows.
-#[derive(Clone, Copy)]
-pub(crate) struct Nozzle {
-    at: Option<Point3>,
-    flow: Ratio,
-}
-
 /// Clay so far, in hundred-thousandths of an E unit.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Total {
@@ -31,40 +24,6 @@ pub(crate) struct Total {
     measured: f64,
     /// What moves said themselves.
     said: i64,
-}
-
-impl Default for Nozzle {
-    fn default() -> Self {
-        Self { at: None, flow: Ratio::ONE }
-    }
-}
-
-impl Nozzle {
-    /// After these lines.
-    pub(crate) fn after(self, change: Change) -> Self {
-        Self { at: change.at.or(self.at), flow: change.flow.unwrap_or(self.flow) }
-    }
-}
-
-/// Where some lines leave the nozzle, and the flow they leave, if they have any.
-#[derive(Clone, Copy)]
-pub(crate) struct Change {
-    at: Option<Point3>,
-    flow: Option<Ratio>,
-}
-
-impl Change {
-    /// Looked for from the end, where the last move nearly always stands.
-    pub(crate) fn of(lines: &[Line]) -> Self {
-        let flow = |line: &Line| match line {
-            Line::Flow(flow) => Some(*flow),
-            _ => None,
-        };
-        Self {
-            at: lines.iter().rev().find_map(Line::as_move).map(|step| step.to),
-            flow: lines.iter().rev().find_map(flow),
-        }
-    }
 }
 
 impl Add for Total {
@@ -112,7 +71,7 @@ impl Meter {
                 continue;
             }
             let after = self.rounded(below + walk.total)?;
-            if let Line::Move(step) = line {
+            if let Some(step) = line.as_move_mut() {
                 let word = match self.counting {
                     Counting::Relative => after.saturating_sub(before),
                     Counting::Absolute => after,
@@ -139,7 +98,6 @@ struct Walk<'a> {
     meter: &'a Meter,
     height: Micron,
     nozzle: Nozzle,
-    on: bool,
     /// Hundred-thousandths of E per micron of bead at the present flow.
     per_micron: f64,
     total: Total,
@@ -147,7 +105,7 @@ struct Walk<'a> {
 
 impl<'a> Walk<'a> {
     fn new(meter: &'a Meter, height: Micron, nozzle: Nozzle) -> Self {
-        let mut walk = Self { meter, height, nozzle, on: false, per_micron: 0.0, total: Total::default() };
+        let mut walk = Self { meter, height, nozzle, per_micron: 0.0, total: Total::default() };
         walk.pour(nozzle.flow);
         walk
     }
@@ -162,38 +120,29 @@ impl<'a> Walk<'a> {
     /// Takes one line; true when it is a move that pushes clay.
     #[inline]
     fn follow(&mut self, line: &Line) -> Result<bool, Error> {
-        match line {
-            Line::Move(step) => {
-                let from = self.nozzle.at.replace(step.to);
-                if let Some(said) = step.extrusion {
-                    // An E word that an earlier stage has put there is an amount of its own: a prime, a relief.
-                    self.total.said = self.total.said.saturating_add(said.get());
-                    return Ok(true);
-                }
-                if !self.on {
-                    return Ok(false);
-                }
-                let Some(from) = from else {
-                    return Err(Error::new("clay flows before the nozzle has a place")
-                        .hint("a bead needs a travel to its start before M101"));
-                };
-                self.total.measured += length(from, step.to) * self.per_micron;
-                return Ok(true);
+        let Some(step) = line.as_move() else {
+            match line {
+                Line::On => self.nozzle.on = true,
+                Line::Off => self.nozzle.on = false,
+                Line::Flow(flow) => self.pour(*flow),
+                _ => {}
             }
-            Line::On => self.on = true,
-            Line::Off => self.on = false,
-            Line::Flow(flow) => self.pour(*flow),
-            _ => {}
+            return Ok(false);
+        };
+        let from = self.nozzle.at.replace(step.to);
+        if let Some(said) = step.extrusion {
+            // An E word that an earlier stage has put there is an amount of its own: a prime, a relief.
+            self.total.said = self.total.said.saturating_add(said.get());
+            return Ok(true);
         }
-        Ok(false)
+        if !self.nozzle.on {
+            return Ok(false);
+        }
+        let Some(from) = from else {
+            return Err(Error::new("clay flows before the nozzle has a place")
+                .hint("a bead needs a travel to its start before M101"));
+        };
+        self.total.measured += line.length(from) * self.per_micron;
+        Ok(true)
     }
-}
-
-/// In microns. The way up counts too: a spiral climbs while it lays.
-fn length(from: Point3, to: Point3) -> f64 {
-    let square = |from: i32, to: i32| {
-        let difference = (i64::from(to) - i64::from(from)) as f64;
-        difference * difference
-    };
-    (square(from.x, to.x) + square(from.y, to.y) + square(from.z, to.z)).sqrt()
 }

@@ -32,8 +32,8 @@ impl Change {
         let moves = || lines.iter().rev().filter_map(Line::as_move);
         Self {
             at: lines.iter().rev().find_map(|line| match line {
-                Line::Move(step) => Some(Some(step.to)),
-                line => is_foreign(line).then_some(None),
+                line if is_foreign(line) => Some(None),
+                line => line.as_move().map(|step| Some(step.to)),
             }),
             feed: moves().find_map(|step| step.feed),
             flow: lines.iter().rev().find_map(|line| match line {
@@ -61,7 +61,7 @@ impl Entry {
 pub(crate) fn is_foreign(line: &Line) -> bool {
     match line {
         // Waiting and saying what has been said is no change.
-        Line::Verbatim(text) => {
+        Line::Verbatim(text) | Line::Pasted(text) => {
             matches!(command(text), Some((b'G', number, _)) if ![4, 21, 90].contains(&number))
         }
         _ => false,

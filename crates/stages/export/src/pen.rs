@@ -4,7 +4,8 @@ use crate::alteration::{bare, command};
 use crate::entry::{Entry, is_foreign};
 use crate::{Comments, Export, remarks};
 use skein::{
-    Bead, Error, Extrusion, Facts, Feature, Feed, Layer, Line, Micron, Move, Nozzle, Point3, Ratio, Skein,
+    Arc, Bead, Center, Error, Extrusion, Facts, Feature, Feed, Layer, Line, Micron, Move, Nozzle, Point3,
+    Ratio, Skein,
 };
 use unit::decimal;
 
@@ -65,8 +66,12 @@ impl Style {
         if self.step == 1 {
             return at;
         }
-        let round = |value: i32| (value + value.signum() * (self.step / 2)) / self.step * self.step;
-        Point3 { x: round(at.x), y: round(at.y), z: round(at.z) }
+        Point3 { x: self.round(at.x), y: self.round(at.y), z: self.round(at.z) }
+    }
+
+    #[inline]
+    fn round(&self, value: i32) -> i32 {
+        (value + value.signum() * (self.step / 2)) / self.step * self.step
     }
 }
 
@@ -130,7 +135,8 @@ impl<'a> Pen<'a> {
             self.nozzle.follow(line);
             match line {
                 Line::Move(step) => self.step(step),
-                Line::Verbatim(text) => self.verbatim(line, text),
+                Line::Arc(arc) => self.arc(arc),
+                Line::Verbatim(text) | Line::Pasted(text) => self.verbatim(line, text),
                 _ => {}
             }
         }
@@ -164,6 +170,40 @@ impl<'a> Pen<'a> {
             return self.enter(to);
         }
         self.go(to, self.nozzle.feed, step.extrusion);
+    }
+
+    /// An arc. Its centre is rounded like its end; R is, too, and a firmware stretches a radius that is too short.
+    fn arc(&mut self, arc: &Arc) {
+        if self.nozzle.on {
+            self.show_bead();
+        }
+        self.fresh = false;
+        let to = self.style.rounded(arc.step.to);
+        self.text.extend_from_slice(if arc.clockwise { b"G2" } else { b"G3" });
+        self.axis(b'X', to.x);
+        self.axis(b'Y', to.y);
+        if self.at.z != Some(to.z) {
+            self.axis(b'Z', to.z);
+        }
+        let words = match arc.center {
+            Center::Offset { i, j } => [Some((b'I', i)), Some((b'J', j))],
+            Center::Radius(radius) => [Some((b'R', radius)), None],
+        };
+        for (letter, length) in words.into_iter().flatten() {
+            self.axis(letter, self.style.round(length.0));
+        }
+        if let Some(e) = arc.step.extrusion {
+            self.extrude(e);
+        }
+        self.feed(self.nozzle.feed);
+        self.text.push(b'\n');
+        self.at = to.into();
+    }
+
+    fn extrude(&mut self, e: Extrusion) {
+        self.text.extend_from_slice(b" E");
+        decimal::write_short(&mut self.text, e.get(), Extrusion::PLACES);
+        self.e = Some(e);
     }
 
     /// The way to the first bead of a layer: the height is a line of its own. A clay processor knows a layer by it, and
@@ -209,9 +249,7 @@ impl<'a> Pen<'a> {
             self.axis(b'Z', to.z);
         }
         if let Some(e) = e {
-            self.text.extend_from_slice(b" E");
-            decimal::write_short(&mut self.text, e.get(), Extrusion::PLACES);
-            self.e = Some(e);
+            self.extrude(e);
         }
         self.feed(feed);
         self.text.push(b'\n');

@@ -36,6 +36,9 @@ pub(crate) fn feature(feature: Feature, out: &mut Vec<u8>) {
         Feature::Infill => b";TYPE:Internal infill\n",
         // A bead on the middle of a thin wall. `Thin wall` is a word of SuperSlicer's that PrusaSlicer shows in grey.
         Feature::Middle => b";TYPE:Gap fill\n",
+        Feature::Skirt => b";TYPE:Skirt/Brim\n",
+        Feature::Support => b";TYPE:Support material\n",
+        Feature::Raft => b";TYPE:Support material interface\n",
     });
 }
 

@@ -67,7 +67,7 @@ impl Turn {
         match feature {
             Feature::Edge(_) => Self::Perimeter,
             Feature::Loop(_) | Feature::Middle => Self::Loops,
-            Feature::Infill => Self::Infill,
+            Feature::Infill | Feature::Skirt | Feature::Support | Feature::Raft => Self::Infill,
         }
     }
 }

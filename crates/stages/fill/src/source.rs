@@ -56,9 +56,11 @@ impl Source {
                     source.bridge = Some(direction);
                     source.head.push(line);
                 }
-                Line::Layer(_) | Line::Thickness(_) | Line::Verbatim(_) | Line::Value(_) => {
-                    source.head.push(line)
-                }
+                Line::Layer(_)
+                | Line::Thickness(_)
+                | Line::Verbatim(_)
+                | Line::Pasted(_)
+                | Line::Value(_) => source.head.push(line),
                 Line::Close(Tag::Layer | Tag::BridgeRotation) => source.tail.push(line),
                 Line::On => {
                     let start = nozzle.at.ok_or_else(|| Error::new("a bead starts nowhere"))?;
@@ -75,6 +77,9 @@ impl Source {
                         thread.points.push(Point::new(step.to.x, step.to.y));
                         thread.flows.push(nozzle.flow);
                     }
+                }
+                Line::Arc(_) => {
+                    return Err(Error::new("a wall has an arc").hint("fillet comes behind fill"));
                 }
                 Line::Off => source.take(thread.take()),
                 // Everything else is laid anew.

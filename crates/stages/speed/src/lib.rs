@@ -14,6 +14,13 @@ pub struct Speed {
     /// The speed of travels. Faster leaves thinner strings and shakes wet walls more.
     #[setting(default = 60.0, min = 0.1, max = 1000.0, unit = "mm/s")]
     pub travel_feed: Feed,
+    /// The fastest that the machine goes up or down. Stages that lift the nozzle keep to it; `limit` holds all moves to
+    /// it.
+    #[setting(default = 10.0, min = 0.01, max = 1000.0, unit = "mm/s")]
+    pub z_feed: Feed,
+    /// The speed of going around while something is waited for, as a share of the feed.
+    #[setting(default = 0.5, min = 0.01, max = 2.0)]
+    pub orbital: Ratio,
     /// The speed of the first layer, as a share of the others'. Slower sticks better.
     #[setting(default = 0.5, min = 0.05, max = 2.0)]
     pub first_layer: Ratio,
@@ -34,6 +41,10 @@ impl Stage for Speed {
         let mut facts = skein.facts()?;
         facts.operating_feed = Some(self.feed);
         facts.travel_feed = Some(self.travel_feed);
+        facts.z_feed = Some(self.z_feed);
+        // To the three decimals that the header has.
+        let orbital = (self.feed.mm_per_s() * self.orbital.f64() * 1000.0).round() / 1000.0;
+        facts.orbital_feed = Feed::from_mm_per_s(orbital.max(0.001));
         skein.state(&facts)?;
         // Whatever moves before the first layer lies on the bed like the first layer.
         self.pace(0, &mut skein.head)?;
@@ -53,7 +64,7 @@ impl Speed {
         let mut bridge = false;
         let (mut has_travelled, mut has_laid) = (false, false);
         for line in lines {
-            if let Line::Move(step) = line {
+            if let Some(step) = line.as_move_mut() {
                 let said = if nozzle.on { &mut has_laid } else { &mut has_travelled };
                 let feed = match step.feed {
                     Some(feed) => feed,
