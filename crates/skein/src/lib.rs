@@ -16,6 +16,7 @@ mod line;
 mod machine;
 mod notes;
 mod nozzle;
+mod reader;
 #[doc(hidden)]
 pub mod settings;
 
@@ -28,10 +29,11 @@ pub use arc::{Arc, Center};
 pub use document::{Layer, Signature, Skein};
 pub use error::{Error, Place};
 pub use facts::{Bead, Facts, Section};
-pub use line::{Feature, Line, Mark, Move, Reader, Side, Tag};
+pub use line::{Feature, Line, Mark, Move, Side, Tag};
 pub use machine::{Bed, BedShape, EUnit, Heaters, Machine, Origin};
 pub use notes::{Note, Notes};
 pub use nozzle::{Nozzle, Span, boundary, spans};
+pub use reader::Reader;
 pub use settings::{Choice, Field, Kind, Setting, SettingError, Settings, Value};
 pub use skein_derive::{Choice, Settings};
 pub use slices::{RotatedLoopLayer, Slices};
