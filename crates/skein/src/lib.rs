@@ -16,6 +16,7 @@ mod line;
 mod machine;
 mod notes;
 mod nozzle;
+mod pen;
 mod reader;
 #[doc(hidden)]
 pub mod settings;
@@ -33,6 +34,7 @@ pub use line::{Feature, Line, Mark, Move, Side, Tag};
 pub use machine::{Bed, BedShape, EUnit, Heaters, Machine, Origin};
 pub use notes::{Note, Notes};
 pub use nozzle::{Nozzle, Span, boundary, spans};
+pub use pen::{Pen, Stretch, Thread, along};
 pub use reader::Reader;
 pub use settings::{Choice, Field, Kind, Setting, SettingError, Settings, Value};
 pub use skein_derive::{Choice, Settings};

@@ -195,6 +195,19 @@ impl Line {
         Ok(Self::Value(Box::new((name.into(), value.into()))))
     }
 
+    /// A block of the potter's own lines. Behind lines that count from where the nozzle is (G91), coordinates are
+    /// absolute again, as those of every stage are.
+    pub fn alteration(text: &str) -> Vec<Self> {
+        let own = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        let mut block = vec![Self::Open(Tag::Alteration)];
+        block.extend(own.map(|line| Self::Pasted(line.into())));
+        if text.lines().any(|line| line.to_ascii_uppercase().contains("G91")) {
+            block.push(Self::Pasted("G90".into()));
+        }
+        block.push(Self::Close(Tag::Alteration));
+        block
+    }
+
     /// Where it goes, how fast, and what it pushes, if it is a move; an arc is one, too.
     #[inline]
     pub fn as_move(&self) -> Option<&Move> {

@@ -60,6 +60,21 @@ impl Nozzle {
     }
 }
 
+impl Skein {
+    /// The highest place that the nozzle has reached in front of each layer, and at last of all; nothing before the first
+    /// move.
+    pub fn highest(&self) -> Vec<Option<i32>> {
+        let top = |lines: &[Line]| lines.iter().filter_map(Line::as_move).map(|step| step.to.z).max();
+        let tops: Vec<Option<i32>> = self.layers.par_iter().map(|layer| top(&layer.lines)).collect();
+        let mut highest = vec![top(&self.head)];
+        highest.extend(tops.iter().scan(top(&self.head), |so_far, top| {
+            *so_far = (*so_far).max(*top);
+            Some(*so_far)
+        }));
+        highest
+    }
+}
+
 /// What some lines change of a nozzle, whatever stood before them.
 struct Change {
     at: Option<Point3>,
@@ -114,6 +129,16 @@ pub enum Span<'a> {
     Travel(&'a [Line]),
     /// Any other line.
     Other(&'a Line),
+}
+
+impl<'a> Span<'a> {
+    /// Its lines.
+    pub fn lines(&self) -> &'a [Line] {
+        match self {
+            Self::Thread(lines) | Self::Travel(lines) => lines,
+            Self::Other(line) => std::slice::from_ref(line),
+        }
+    }
 }
 
 /// Cuts lines into threads, travels and the rest.

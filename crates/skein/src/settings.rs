@@ -270,6 +270,24 @@ impl Setting for shape::Point {
     }
 }
 
+/// A place of the nozzle.
+impl Setting for shape::Point3 {
+    const KIND: Kind = Kind::Form("[x, y, z]");
+    fn read(value: &Value) -> Result<Self, String> {
+        match value {
+            Value::List(values) if values.len() == 3 => Ok(Self {
+                x: Micron::read_value(&values[0])?.0,
+                y: Micron::read_value(&values[1])?.0,
+                z: Micron::read_value(&values[2])?.0,
+            }),
+            _ => Err("is not of the form [x, y, z]".to_owned()),
+        }
+    }
+    fn show(&self) -> Value {
+        Value::List(vec![Micron(self.x).show(), Micron(self.y).show(), Micron(self.z).show()])
+    }
+}
+
 /// Disambiguates [`Setting::read`] from the reader of text that the quantities have themselves.
 pub(crate) trait ReadValue: Setting {
     fn read_value(value: &Value) -> Result<Self, String> {
