@@ -9,6 +9,8 @@ use unit::{Feed, Ratio};
 #[derive(Debug)]
 pub struct Pen {
     nozzle: Nozzle,
+    /// The nozzle in front of the line that was written last.
+    before: Nozzle,
     lines: Vec<Line>,
 }
 
@@ -34,7 +36,8 @@ impl Pen {
     /// A pen for a layer that finds the nozzle like this. The speed counts as not said yet, since every layer says its
     /// own.
     pub fn new(entering: &Nozzle, lines: usize) -> Self {
-        Self { nozzle: Nozzle { feed: None, ..*entering }, lines: Vec::with_capacity(lines) }
+        let nozzle = Nozzle { feed: None, ..*entering };
+        Self { nozzle, before: nozzle, lines: Vec::with_capacity(lines) }
     }
 
     /// What the nozzle does behind the lines written so far.
@@ -44,6 +47,7 @@ impl Pen {
 
     /// Writes a line as it is.
     pub fn push(&mut self, line: Line) {
+        self.before = self.nozzle;
         self.nozzle.follow(&line);
         self.lines.push(line);
     }
@@ -103,6 +107,21 @@ impl Pen {
             }
             _ if self.nozzle.at == Some(at) => {}
             _ => self.go(at, None),
+        }
+    }
+
+    /// Takes back the travel that was just written, with the place from which it went; nothing when something else was
+    /// written last or that place is unknown.
+    pub fn take_travel(&mut self) -> Option<(Point3, Move)> {
+        let from = self.before.at?;
+        match self.lines.last() {
+            Some(Line::Move(travel)) if !self.nozzle.on => {
+                let travel = *travel;
+                self.lines.pop();
+                self.nozzle = self.before;
+                Some((from, travel))
+            }
+            _ => None,
         }
     }
 

@@ -1,19 +1,130 @@
 #![doc = include_str!("../README.md")]
 
-use skein::{Error, Notes, Ratio, Settings, Skein, Stage};
+use skein::{
+    Bead, Error, Feed, Layer, Line, Move, Notes, Nozzle, Pen, Ratio, Settings, Skein, Span, Stage, Stretch,
+    Thread, spans,
+};
 
-/// Says what it is for.
+#[cfg(test)]
+mod tests;
+
+/// Lets the pressure go at the end of a bead.
 #[derive(Clone, Debug, Settings)]
 pub struct Dwindle {
-    /// What gets better and what gets worse when it grows.
-    #[setting(default = 1.0, min = 0.0, max = 2.0)]
-    pub amount: Ratio,
+    /// How much clay still comes out after the clay is stopped: what the hose, the clay and the air in it give back.
+    /// Found by printing a line into the air, stopping, and weighing what follows.
+    #[setting(default = 20.0, min = 0.0, max = 100000.0, unit = "mm³")]
+    pub pent_up_volume: Ratio,
+    /// How much clay the end of the bead takes on which the pressure goes. Five to ten times what is pent up.
+    #[setting(default = 150.0, min = 0.001, max = 100000.0, unit = "mm³")]
+    pub slowdown_volume: Ratio,
+    /// What still flows at the very end, as a share.
+    #[setting(default = 0.5, min = 0.0, max = 1.0)]
+    pub end_rate: Ratio,
+    /// In how many steps it becomes less.
+    #[setting(default = 5, min = 1, max = 100)]
+    pub slowdown_steps: u32,
+    /// Whether the nozzle becomes slower instead, and the bead keeps its width but for what is pent up. For machines that
+    /// push evenly whatever they are told, like an air tank with a valve.
+    #[setting(default = false)]
+    pub slow_feed: bool,
 }
 
 impl Stage for Dwindle {
     const NAME: &'static str = "dwindle";
 
     fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
-        skein.rewrite(notes, |_index, layer, _notes| Ok(layer.lines))
+        if self.pent_up_volume > self.slowdown_volume {
+            return Err(Error::new(format!(
+                "{} mm³ cannot be let go within {} mm³ of bead",
+                self.pent_up_volume, self.slowdown_volume
+            ))
+            .hint("slowdown_volume is five to ten times pent_up_volume"));
+        }
+        let facts = skein.facts()?;
+        let bead = facts.bead()?;
+        let nozzles = skein.nozzles();
+        skein.rewrite(notes, |index, layer, _| {
+            let bead = bead.of_height(layer.height(&facts)?);
+            Ok(self.layer(layer, &nozzles[index], bead))
+        })
     }
+}
+
+impl Dwindle {
+    fn layer(&self, layer: Layer, entering: &Nozzle, bead: Bead) -> Vec<Line> {
+        let mut was = *entering;
+        let mut pen = Pen::new(entering, layer.lines.len() * 3 / 2);
+        for span in spans(&layer.lines) {
+            let thread = match span {
+                Span::Thread(lines) => Thread::read(lines, &was),
+                _ => None,
+            };
+            if let Some(thread) = &thread {
+                pen.thread(&self.dwindled(thread.clone(), bead));
+            }
+            for line in span.lines() {
+                if thread.is_none() {
+                    pen.pass(line.clone(), &was);
+                }
+                was.follow(line);
+            }
+        }
+        pen.finish(&was)
+    }
+
+    /// The thread with its end cut into steps that become less (stages.md §7.7).
+    fn dwindled(&self, thread: Thread, bead: Bead) -> Thread {
+        // Clay in mm³ per micron of bead.
+        let area = bead.area() / 1000.0;
+        let volume: f64 =
+            thread.pieces().map(|(from, piece)| piece.step.length(from) * piece.flow.f64() * area).sum();
+        let slow = self.slowdown_volume.f64().min(volume);
+        let steps = f64::from(self.slowdown_steps);
+        let (mut done, mut rest) = cut(thread, volume - slow, area);
+        for step in 0..self.slowdown_steps {
+            let last = step + 1 == self.slowdown_steps;
+            let (part, after) = if last {
+                let end = Thread { start: rest.end(), stretches: Vec::new() };
+                (rest, end)
+            } else {
+                cut(rest, slow / steps, area)
+            };
+            rest = after;
+            // What is left of the slowdown in the middle of this step.
+            let left = slow / self.slowdown_volume.f64() * (1.0 - (f64::from(step) + 0.5) / steps);
+            done = done.join(self.at_rate(part, left + self.end_rate.f64() * (1.0 - left)));
+        }
+        done
+    }
+
+    /// A part of a thread at a rate: less clay on the same way, or the same way more slowly.
+    fn at_rate(&self, mut part: Thread, rate: f64) -> Thread {
+        let kept = 1.0 - self.pent_up_volume.f64() / self.slowdown_volume.f64();
+        let share = if self.slow_feed { kept } else { kept * rate };
+        for Stretch { step, flow } in &mut part.stretches {
+            *flow = Ratio::from_f64(flow.f64() * share).unwrap_or(*flow);
+            if self.slow_feed {
+                let slower = step.feed.and_then(|feed| Feed::from_mm_per_s(feed.mm_per_s() * rate));
+                *step = Move { feed: slower.or(step.feed), ..*step };
+            }
+        }
+        part
+    }
+}
+
+/// Cuts a thread where so much clay has been laid; `area` is mm³ per micron of bead.
+fn cut(thread: Thread, volume: f64, area: f64) -> (Thread, Thread) {
+    let (mut left, mut at) = (volume, 0.0);
+    for (from, piece) in thread.pieces() {
+        let length = piece.step.length(from);
+        let takes = length * piece.flow.f64() * area;
+        if left < takes {
+            at += length * left / takes;
+            break;
+        }
+        left -= takes;
+        at += length;
+    }
+    thread.split(at)
 }

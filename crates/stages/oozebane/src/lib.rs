@@ -1,19 +1,252 @@
 #![doc = include_str!("../README.md")]
 
-use skein::{Error, Notes, Ratio, Settings, Skein, Stage};
+mod ramp;
+#[cfg(test)]
+mod tests;
 
-/// Says what it is for.
+use ramp::Ramp;
+use skein::{
+    Choice, Error, Facts, Feed, Layer, Line, Micron, Move, Notes, Nozzle, Pen, Settings, Skein, Span, Stage,
+    Thread, along, spans,
+};
+
+/// Stops the clay before the end of a bead and starts it before the beginning.
 #[derive(Clone, Debug, Settings)]
 pub struct Oozebane {
-    /// What gets better and what gets worse when it grows.
-    #[setting(default = 1.0, min = 0.0, max = 2.0)]
-    pub amount: Ratio,
+    /// How long before its end a bead's clay is stopped. What is pent up lays the rest: feed times the time that the
+    /// clay lags behind.
+    #[setting(default = 6.0, min = 0.0, max = 1000.0, unit = "mm")]
+    pub early_shutdown_distance: Micron,
+    /// How long before its beginning a bead's clay is started after a long travel; after a short one it is less.
+    #[setting(default = 3.0, min = 0.0, max = 1000.0, unit = "mm")]
+    pub early_startup_maximum_distance: Micron,
+    /// After a travel of this length the clay is started 63 % of the largest distance before.
+    #[setting(default = 50.0, min = 0.001, max = 100000.0, unit = "mm")]
+    pub early_startup_distance_constant: Micron,
+    /// How long before its beginning the clay of the very first bead is started.
+    #[setting(default = 15.0, min = 0.0, max = 1000.0, unit = "mm")]
+    pub first_early_startup_distance: Micron,
+    /// Over what way behind its beginning a bead comes up to its speed.
+    #[setting(default = 3.0, min = 0.0, max = 1000.0, unit = "mm")]
+    pub after_startup_distance: Micron,
+    /// After travels shorter than this the start is slowed less; 0 is never.
+    #[setting(default = 0.0, min = 0.0, max = 1000.0, unit = "mm")]
+    pub minimum_distance_for_early_startup: Micron,
+    /// Before travels shorter than this the clay is stopped less early; 0 is never.
+    #[setting(default = 0.0, min = 0.0, max = 1000.0, unit = "mm")]
+    pub minimum_distance_for_early_shutdown: Micron,
+    /// In how many steps the speed changes.
+    #[setting(default = 3, min = 1, max = 100)]
+    pub slowdown_startup_steps: u32,
+    /// What else happens at both ends.
+    #[setting(default = Ends::Even)]
+    pub ends: Ends,
+}
+
+/// What happens at the ends of a bead beside the early start and stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
+pub enum Ends {
+    /// Nothing: the nozzle moves evenly, as clay likes it.
+    Even,
+    /// The nozzle is slower behind the start and before the end, in steps.
+    Slow,
 }
 
 impl Stage for Oozebane {
     const NAME: &'static str = "oozebane";
 
     fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
-        skein.rewrite(notes, |_index, layer, _notes| Ok(layer.lines))
+        let nozzles = skein.nozzles();
+        let first = skein.layers.iter().position(|layer| layer.lines.contains(&Line::On));
+        let ways: Vec<Ways> = skein
+            .layers
+            .iter()
+            .zip(&nozzles)
+            .map(|(layer, nozzle)| Ways::of(&layer.lines, *nozzle))
+            .collect();
+        // The travel behind the last bead of a layer goes on to the first bead of the next one that has any.
+        let mut behind = vec![f64::INFINITY; ways.len()];
+        let mut next = f64::INFINITY;
+        for (index, way) in ways.iter().enumerate().rev() {
+            behind[index] = next;
+            next = if way.beads { way.before } else { next + way.before };
+        }
+        let mut ahead = vec![0.0; ways.len()];
+        let mut so_far = 0.0;
+        for (index, way) in ways.iter().enumerate() {
+            ahead[index] = so_far;
+            so_far = if way.beads { way.behind } else { so_far + way.before };
+        }
+        let valve = self.valve(&skein.facts()?);
+        skein.rewrite(notes, |index, layer, _| {
+            let ends = Travels { ahead: ahead[index], behind: behind[index], first: first == Some(index) };
+            Ok(valve.layer(layer, &nozzles[index], ends))
+        })
     }
+}
+
+impl Oozebane {
+    fn valve(&self, facts: &Facts) -> Valve<'_> {
+        Valve { oozebane: self, operating: facts.operating_feed }
+    }
+}
+
+/// How far a layer travels before its first bead and behind its last, in microns. Without a bead all is before.
+struct Ways {
+    before: f64,
+    behind: f64,
+    beads: bool,
+}
+
+impl Ways {
+    fn of(lines: &[Line], mut nozzle: Nozzle) -> Self {
+        let mut ways = Self { before: 0.0, behind: 0.0, beads: nozzle.on };
+        for line in lines {
+            let (from, on) = (nozzle.at, nozzle.on);
+            nozzle.follow(line);
+            ways.beads |= nozzle.on;
+            if nozzle.on {
+                ways.behind = 0.0;
+            } else if let (Some(from), false) = (from, on) {
+                *(if ways.beads { &mut ways.behind } else { &mut ways.before }) += line.length(from);
+            }
+        }
+        ways
+    }
+}
+
+/// What lies around the beads of a layer.
+struct Travels {
+    /// The travel of the layers below that leads to the first bead, in microns.
+    ahead: f64,
+    /// The travel of the layers above that follows the last bead.
+    behind: f64,
+    /// Whether the first bead of the layer is the first of all.
+    first: bool,
+}
+
+/// The stage at work.
+struct Valve<'a> {
+    oozebane: &'a Oozebane,
+    operating: Option<Feed>,
+}
+
+impl Valve<'_> {
+    fn layer(&self, layer: Layer, entering: &Nozzle, ends: Travels) -> Vec<Line> {
+        let spans: Vec<Span<'_>> = spans(&layer.lines).collect();
+        let after = self.after(&spans, entering, ends.behind);
+        let mut was = *entering;
+        let mut pen = Pen::new(entering, layer.lines.len() * 3 / 2);
+        let mut travelled = ends.ahead;
+        let mut first = ends.first;
+        for (span, behind) in spans.iter().zip(after) {
+            let thread = match span {
+                Span::Thread(lines) => Thread::read(lines, &was),
+                _ => None,
+            };
+            if let Some(thread) = &thread {
+                self.thread(&mut pen, thread, travelled, behind, first);
+            }
+            for line in span.lines() {
+                if let (false, false, Some(from)) = (was.on, *line == Line::On, was.at) {
+                    travelled += line.length(from);
+                }
+                if thread.is_none() {
+                    pen.pass(line.clone(), &was);
+                }
+                was.follow(line);
+            }
+            if matches!(span, Span::Thread(_)) {
+                (travelled, first) = (0.0, false);
+            }
+        }
+        pen.finish(&was)
+    }
+
+    /// For each span, how far it is from its end to the next bead, in microns.
+    fn after(&self, spans: &[Span<'_>], entering: &Nozzle, behind: f64) -> Vec<f64> {
+        let mut nozzle = *entering;
+        let lengths: Vec<f64> = spans
+            .iter()
+            .map(|span| {
+                let mut length = 0.0;
+                for line in span.lines() {
+                    if let (false, Some(from)) = (nozzle.on, nozzle.at) {
+                        length += line.length(from);
+                    }
+                    nozzle.follow(line);
+                }
+                length
+            })
+            .collect();
+        let mut next = behind;
+        let mut after = vec![0.0; spans.len()];
+        for (index, span) in spans.iter().enumerate().rev() {
+            after[index] = next;
+            next = if matches!(span, Span::Thread(_)) { 0.0 } else { next + lengths[index] };
+        }
+        after
+    }
+
+    /// Lays a thread that lies behind a travel of one length and before one of another, in microns.
+    fn thread(&self, pen: &mut Pen, thread: &Thread, before: f64, behind: f64, first: bool) {
+        let oozebane = self.oozebane;
+        let feed = thread.stretches.first().and_then(|piece| piece.step.feed);
+        let speed = |feed: Option<Feed>| feed.map_or(1.0, Feed::mm_per_s);
+        // A faster bead needs its clay sooner.
+        let ratio = self.operating.map_or(1.0, |usual| speed(feed.or(Some(usual))) / usual.mm_per_s());
+        let share = |way: f64, least: Micron| if least.0 > 0 { (way / least.um()).min(1.0) } else { 1.0 };
+        let (start, stop) = (
+            share(before, oozebane.minimum_distance_for_early_startup),
+            share(behind, oozebane.minimum_distance_for_early_shutdown),
+        );
+        let length = thread.length();
+        let off = oozebane.early_shutdown_distance.um() * stop;
+        let up = oozebane.after_startup_distance.um() * start * ratio;
+        self.start_early(pen, thread, before, first, ratio);
+        let steps = f64::from(oozebane.slowdown_startup_steps);
+        let slow = oozebane.ends == Ends::Slow;
+        let rising = if slow && length > 1.03 * (off + up) {
+            Ramp::up((start * steps) as u32, up)
+        } else {
+            Ramp::none()
+        };
+        let (laid, left) = if off > 0.0 && length > off {
+            thread.clone().split(length - off)
+        } else {
+            (thread.clone(), nothing(thread))
+        };
+        rising.lay(pen, laid);
+        pen.off();
+        let falling = if slow { Ramp::down((stop * steps) as u32, off) } else { Ramp::none() };
+        falling.run(pen, left);
+    }
+
+    /// Starts the clay on the travel that has just been written, before the thread begins.
+    fn start_early(&self, pen: &mut Pen, thread: &Thread, before: f64, first: bool, ratio: f64) {
+        let oozebane = self.oozebane;
+        let early = if first {
+            oozebane.first_early_startup_distance.um()
+        } else {
+            let decay = libm::exp(-before / oozebane.early_startup_distance_constant.um());
+            oozebane.early_startup_maximum_distance.um() * (1.0 - decay)
+        };
+        let early = early * ratio;
+        let Some(first) = thread.stretches.first() else { return };
+        if early >= 1.0
+            && let Some((from, travel)) = pen.take_travel()
+        {
+            let length = Move::to(travel.to).length(from);
+            let on = along(travel.to, from, early.min(length));
+            pen.step(Move { to: on, ..travel });
+            pen.flow(first.flow);
+            pen.on();
+            pen.go(travel.to, first.step.feed.or(self.operating));
+        }
+    }
+}
+
+/// The empty end of a thread.
+fn nothing(thread: &Thread) -> Thread {
+    Thread { start: thread.end(), stretches: Vec::new() }
 }
