@@ -276,9 +276,7 @@ impl Case {
         empty.layers.clear();
         let both = count(&empty, profile)?;
         empty.tail.clear();
-        let mut endless = profile.clone();
-        endless.set("export.end", "")?;
-        let head = count(&empty, &endless)?;
+        let head = count(&empty, profile)?;
         Ok((head, both - head))
     }
 

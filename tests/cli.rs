@@ -264,7 +264,7 @@ fn refused_parts() -> Vec<Refused> {
             "heat at the start",
             "part.stl",
             stl(&cube()),
-            &["--set", "export.start=M104 S200"],
+            &["--set", "alteration.start=M104 S200"],
             &["M104", "heat"],
         ),
     ]
@@ -565,7 +565,7 @@ fn an_older_file_stays_when_a_slice_fails() {
     room.put("part.stl", example("cube"));
     let before = room.listing();
     // It fails in the last stage, when the file is begun already.
-    assert_eq!(room.run(&["slice", "part.stl", "--set", "export.end=M109 S200"]).code, Some(1));
+    assert_eq!(room.run(&["slice", "part.stl", "--set", "alteration.end=M109 S200"]).code, Some(1));
     assert_eq!(room.listing(), before);
     room.run(&["slice", "part.stl"]).done();
     assert_ne!(room.listing(), before);

@@ -80,7 +80,7 @@ stages! {
     off skein limit::Limit: "Keeps the moves within what the machine can do.";
     off skein unpause::Unpause: "Makes up for the time that a slow controller takes for each line.";
     on skein dimension::Dimension: "Says how much clay every move pushes out.";
-    off skein alteration::Alteration: "Adds your own lines at the start, at the end and at the layers.";
+    on skein alteration::Alteration: "Adds your own lines at the start, at the end and at the layers.";
     on special export::Export: "Writes the file that the machine reads.";
 }
 

@@ -193,7 +193,7 @@ mod tests {
     fn settings_are_pairs_as_the_shell_leaves_them() {
         assert_eq!(pair("fill.walls=2"), Ok(("fill.walls".to_owned(), "2".to_owned())));
         assert_eq!(pair("machine.e_unit=\"mm3\"").expect("a pair").1, "\"mm3\"");
-        assert_eq!(pair("export.start=G28 X=1").expect("only the first counts").1, "G28 X=1");
+        assert_eq!(pair("alteration.start=G28 X=1").expect("only the first counts").1, "G28 X=1");
         assert!(pair("fill.walls").is_err() && pair("=2").is_err());
         let words =
             ["clayforge", "slice", "a.stl", "--set", "machine.bed=[300,300,400]", "--set", "fill.walls=2"];

@@ -9,6 +9,7 @@
 //! run in memory gives the bytes of a chain of Unix filters.
 
 mod arc;
+pub mod command;
 mod document;
 mod error;
 mod facts;

@@ -1,5 +1,6 @@
 //! A line of the skein, its printer and its reader side by side.
 
+use crate::command::command;
 use crate::{Arc, Center, Error};
 use shape::Point3;
 use unit::{Direction, Extrusion, Feed, Micron, Ratio};
@@ -188,7 +189,7 @@ impl Line {
     /// When name or value would not read back as they were: a line break, a bracket, or blanks at an end.
     pub fn value(name: &str, value: &str) -> Result<Self, Error> {
         let plain = !name.is_empty() && name.bytes().all(|byte| byte.is_ascii_alphanumeric() || byte == b'_');
-        let sound = value.trim() == value && !value.is_empty() && !value.contains(['\n', '\r', '<']);
+        let sound = value.trim() == value && !value.is_empty() && !value.contains(['\n', '\r']);
         if !plain || !sound || is_point(name) || name == "thickness" {
             return Err(Error::new(format!("`{name}` = `{value}` cannot stand in a header tag")));
         }
@@ -201,7 +202,11 @@ impl Line {
         let own = text.lines().map(str::trim).filter(|line| !line.is_empty());
         let mut block = vec![Self::Open(Tag::Alteration)];
         block.extend(own.map(|line| Self::Pasted(line.into())));
-        if text.lines().any(|line| line.to_ascii_uppercase().contains("G91")) {
+        let counting = |line: &str| match command(line) {
+            Some((b'G', mode @ (90 | 91), _)) => Some(mode),
+            _ => None,
+        };
+        if text.lines().rev().find_map(counting) == Some(91) {
             block.push(Self::Pasted("G90".into()));
         }
         block.push(Self::Close(Tag::Alteration));

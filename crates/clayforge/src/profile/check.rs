@@ -3,9 +3,6 @@
 use super::Profile;
 use skein::{Error, Notes, Value};
 
-/// Words that a heater would obey; clay has none, and a firmware that finds no sensor stops at them.
-const HEATERS: &[&str] = &["M104", "M109", "M140", "M141", "M190", "M191"];
-
 impl Profile {
     /// Checks the settings against each other.
     ///
@@ -33,11 +30,15 @@ impl Profile {
             }
         }
         self.check_bead(notes)?;
-        for key in ["export.start", "export.end"] {
-            if let Some((_, Value::Text(text))) = self.get(key) {
-                let words = text.split(|letter: char| !letter.is_ascii_alphanumeric());
-                for word in words.filter(|word| HEATERS.contains(word)) {
-                    notes.say(format!("{key} has {word}, which heats; clay needs no heat"));
+        for station in &self.stations {
+            for (key, value) in station.work.keys().values() {
+                let Value::Text(text) = value else { continue };
+                for line in text.lines().filter(|line| self.machine.heaters.refuse(line)) {
+                    let name = station.entry.name;
+                    notes.say(format!(
+                        "{name}.{key} has `{}`, which heats what the machine cannot heat",
+                        line.trim()
+                    ));
                 }
             }
         }

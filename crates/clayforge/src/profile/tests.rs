@@ -169,7 +169,7 @@ fn settings_are_checked_against_each_other() {
     assert!(check("carve.active = false").is_err());
     assert_eq!(check("machine.nozzle = 1.0").expect("only noted").len(), 2);
     assert_eq!(check("carve.layer_height = 0.2").expect("only noted").len(), 1);
-    assert_eq!(check("export.start = \"G28\\nM104 S200\"").expect("only noted").len(), 1);
+    assert_eq!(check("alteration.start = \"G28\\nM104 S200\"").expect("only noted").len(), 1);
 }
 
 #[test]

@@ -20,7 +20,7 @@ pub struct Cool {
     pub waiting: Waiting,
     /// The least time for a layer. Wet clay carries the next bead after a while in the air; a small layer comes back to
     /// the same spot before that.
-    #[setting(default = 20.0, min = 0.0, max = 36000.0, unit = "s")]
+    #[setting(default = 20.0, min = 0.0, max = 1000.0, unit = "s")]
     pub minimum_layer_time: Ratio,
     /// The slowest that a bead is laid. Below that the flow becomes uneven, and the layer is done sooner than it should.
     #[setting(default = 10.0, min = 0.001, max = 1000.0, unit = "mm/s")]

@@ -13,10 +13,10 @@ mod tests;
 pub struct Dwindle {
     /// How much clay still comes out after the clay is stopped: what the hose, the clay and the air in it give back.
     /// Found by printing a line into the air, stopping, and weighing what follows.
-    #[setting(default = 20.0, min = 0.0, max = 100000.0, unit = "mm³")]
+    #[setting(default = 20.0, min = 0.0, max = 1000.0, unit = "mm³")]
     pub pent_up_volume: Ratio,
     /// How much clay the end of the bead takes on which the pressure goes. Five to ten times what is pent up.
-    #[setting(default = 150.0, min = 0.001, max = 100000.0, unit = "mm³")]
+    #[setting(default = 150.0, min = 0.001, max = 1000.0, unit = "mm³")]
     pub slowdown_volume: Ratio,
     /// What still flows at the very end, as a share.
     #[setting(default = 0.5, min = 0.0, max = 1.0)]

@@ -1,6 +1,6 @@
 //! What a layer takes over from the lines before it, so that layers can be written side by side.
 
-use crate::alteration::command;
+use skein::command::command;
 use skein::{Extrusion, Feed, Line, Point3, Ratio};
 
 /// What is known when a layer begins, from the lines before it.

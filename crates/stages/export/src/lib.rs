@@ -1,35 +1,60 @@
 #![doc = include_str!("../README.md")]
 
-mod alteration;
 mod entry;
+mod extruder;
+mod name;
 mod pen;
 mod remarks;
+mod replace;
 #[cfg(test)]
 mod tests;
 
-use alteration::Alteration;
 use entry::{Change, Entry};
 use pen::{Pen, Style};
 use rayon::prelude::*;
-use skein::{Choice, Error, Layer, Line, Notes, Place, Settings, Skein, Tag};
+use replace::Table;
+use skein::{Choice, Error, Layer, Line, Notes, Place, Settings, Skein};
+
+pub use name::Naming;
 
 /// Writes the file that the machine reads.
 #[derive(Clone, Debug, Settings)]
 pub struct Export {
-    /// Lines before the print: home, prime. The file has said millimetres and absolute coordinates before them, and says
-    /// how E counts, from zero, behind them. They may not heat: a clay printer has nothing to heat.
-    #[setting(default = "G28")]
-    pub start: String,
-    /// Lines after the print: relieve the pressure, lift, park. With `G92 E0` in front, a line with E is the same whether
-    /// E counts from move to move or from the start. No line may lower the nozzle into the pot, and none may heat.
-    #[setting(default = "G91\nG1 Z10 F600\nG90\nM84")]
-    pub end: String,
     /// What the file says beside its commands. Less makes a smaller file that viewers understand less.
     #[setting(default = Comments::Layers)]
     pub comments: Comments,
     /// Decimals of coordinates. Fewer make a smaller file; at one decimal fine curves show steps.
     #[setting(default = 3, min = 1, max = 3)]
     pub decimals: u32,
+    /// Lines where clay starts to flow, for machines whose pump is no axis: a valve (`M106`), a screw (`M3 S<pwm>`).
+    /// `<flow>` is the share of the nominal bead, `<percent>` a hundred times and `<pwm>` 255 times that.
+    #[setting(default = "")]
+    pub on: String,
+    /// Lines where clay stops.
+    #[setting(default = "")]
+    pub off: String,
+    /// Lines where the flow changes while clay flows, with the same words.
+    #[setting(default = "")]
+    pub flow: String,
+    /// Replacements in the finished lines, one a line: what is replaced, a tab, and what takes its place, in which `\n`
+    /// begins a new line. A rule that is a whole word replaces whole words only.
+    #[setting(default = "")]
+    pub replace: String,
+    /// What is added to the name of the part to make that of the file.
+    #[setting(default = "")]
+    pub suffix: String,
+    /// Whether the name of the file says the profile.
+    #[setting(default = false)]
+    pub name_has_profile: bool,
+    /// Whether the name of the file says layer height, bead width, walls and infill.
+    #[setting(default = false)]
+    pub name_has_description: bool,
+    /// Whether the name of the file says the day and the time.
+    #[setting(default = false)]
+    pub name_has_time: bool,
+    /// How the name of the file ends.
+    #[setting(default = "gcode")]
+    pub file_extension: String,
 }
 
 /// What the file says beside its commands.
@@ -41,6 +66,10 @@ pub enum Comments {
     Head,
     /// Nothing.
     None,
+    /// Every tag of the stages, as they read it.
+    Tags,
+    /// The tags of the header only.
+    HeadTags,
 }
 
 /// So many layers are formatted side by side and handed on before the next ones: enough to keep the cores busy, few
@@ -62,27 +91,25 @@ impl Export {
         notes: &mut Notes,
         sink: &mut dyn FnMut(&[u8]) -> Result<(), Error>,
     ) -> Result<(), Error> {
-        let start = Alteration::new("start", &self.start)?;
-        let end = Alteration::new("end", &self.end)?;
+        self.keep_cold(&skein)?;
         let style = Style::new(self, &skein)?;
-        doubts(&skein, &end, notes);
+        let table = Table::read(&self.replace)?;
+        let mut sink = |text: Vec<u8>| match table.apply(&text) {
+            Some(text) => sink(&text),
+            None => sink(&text),
+        };
+        if !skein.has_done("dimension") {
+            notes.say("dimension has not run, so nothing says how much clay a move pushes");
+        }
 
         let mut text = Vec::new();
         remarks::head(&skein, self.comments, &mut text)?;
         let Skein { head, layers, tail } = skein;
-        // What the header says of coordinates holds for the start, and the start cannot undo what is said of E.
-        let crafting = head.iter().position(|line| *line == Line::Open(Tag::Crafting)).unwrap_or(head.len());
-        let (header, crafting) = head.split_at(crafting);
         let mut pen = Pen::new(&style, Entry::default(), None, text);
-        pen.lines(header);
-        start.write(self.comments, &mut pen.text);
-        // Nobody knows where the start leaves the nozzle.
-        let entry = Entry { at: None, ..Entry::default().after(Change::of(header)) };
-        let mut pen = Pen::new(&style, entry, None, pen.text);
-        pen.lines(crafting);
-        sink(&pen.text)?;
+        pen.lines(&head);
+        sink(pen.text)?;
 
-        let (entries, leaving) = entries(entry.after(Change::of(crafting)), &layers);
+        let (entries, leaving) = entries(Entry::default().after(Change::of(&head)), &layers);
         drop(head);
         let mut layers = layers.into_iter().zip(entries).enumerate();
         loop {
@@ -95,14 +122,36 @@ impl Export {
                 .map(|(index, (layer, entry))| piece(&style, index, layer, entry))
                 .collect();
             for text in pieces {
-                sink(&text?)?;
+                sink(text?)?;
             }
         }
 
         let mut pen = Pen::new(&style, leaving, None, Vec::new());
         pen.lines(&tail);
-        end.write(self.comments, &mut pen.text);
-        sink(&pen.text)
+        sink(pen.text)
+    }
+
+    /// Whatever stage or hand has put it there: no line heats what the machine cannot heat.
+    fn keep_cold(&self, skein: &Skein) -> Result<(), Error> {
+        let heaters = skein.facts()?.heaters.unwrap_or_default();
+        let hot = |lines: &[Line]| {
+            lines.iter().filter_map(Line::plain).find(|text| heaters.refuse(text)).map(str::to_owned)
+        };
+        let refuse = |text: String, place: Place| {
+            Error::new(format!("`{}` heats", text.trim()))
+                .at(place)
+                .hint("a clay printer has no heater: leave the line out, or name it in machine.heaters")
+        };
+        for lines in [&skein.head, &skein.tail] {
+            if let Some(text) = hot(lines) {
+                return Err(refuse(text, Place::Whole));
+            }
+        }
+        let layers: Vec<Option<String>> = skein.layers.par_iter().map(|layer| hot(&layer.lines)).collect();
+        match layers.into_iter().enumerate().find_map(|(index, text)| Some((index, text?))) {
+            Some((index, text)) => Err(refuse(text, Place::Layer(index))),
+            None => Ok(()),
+        }
     }
 }
 
@@ -129,17 +178,4 @@ fn entries(mut entry: Entry, layers: &[Layer]) -> (Vec<Entry>, Entry) {
     };
     let entries = changes.into_iter().map(step).collect();
     (entries, entry)
-}
-
-/// What a potter should look at before the file goes to the machine.
-fn doubts(skein: &Skein, end: &Alteration<'_>, notes: &mut Notes) {
-    if !skein.has_done("dimension") {
-        notes.say("dimension has not run, so nothing says how much clay a move pushes");
-    }
-    // Where the layers end is high enough to compare with, and found without reading every line.
-    let ends = skein.layers.iter().filter_map(|layer| layer.lines.iter().rev().find_map(Line::as_move));
-    let top = ends.map(|step| step.to.z).max();
-    if let Some(line) = top.and_then(|top| end.lowers(top)) {
-        notes.say(format!("`{line}` at the end lowers the nozzle, perhaps into the pot"));
-    }
 }

@@ -1,8 +1,9 @@
 //! The writer of moves. It knows what the machine knows and says only what changes.
 
-use crate::alteration::{bare, command};
 use crate::entry::{Entry, is_foreign};
+use crate::extruder::Extruder;
 use crate::{Comments, Export, remarks};
+use skein::command::{bare, command};
 use skein::{
     Arc, Bead, Center, Error, Extrusion, Facts, Feature, Feed, Layer, Line, Micron, Move, Nozzle, Point3,
     Ratio, Skein,
@@ -15,6 +16,7 @@ pub(crate) struct Style {
     bead: Option<Bead>,
     travel: Feed,
     pub(crate) comments: Comments,
+    extruder: Extruder,
     /// Coordinates are multiples of so many microns.
     step: i32,
     /// Whether an E word counts from the start of the print (M82).
@@ -42,6 +44,7 @@ impl Style {
             travel: facts.travel_feed()?,
             bead: facts.bead().ok(),
             comments: export.comments,
+            extruder: Extruder::new(export),
             step: 10_i32.pow(3_u32.saturating_sub(export.decimals)),
             absolute: skein.head.iter().rev().find_map(counting) == Some(82),
             facts,
@@ -132,20 +135,28 @@ impl<'a> Pen<'a> {
     /// are for the stages.
     pub(crate) fn lines(&mut self, lines: &[Line]) {
         for line in lines {
+            let was_on = self.nozzle.on;
             self.nozzle.follow(line);
             match line {
                 Line::Move(step) => self.step(step),
+                Line::On if !was_on => self.style.extruder.start(self.nozzle.flow, &mut self.text),
+                Line::Off if was_on => self.style.extruder.stop(self.nozzle.flow, &mut self.text),
+                Line::Flow(flow) if was_on => self.style.extruder.change(*flow, &mut self.text),
                 Line::Arc(arc) => self.arc(arc),
                 Line::Verbatim(text) | Line::Pasted(text) => self.verbatim(line, text),
                 _ => {}
+            }
+            if self.keeps_tags() && is_tag(line) {
+                line.write(&mut self.text);
+                self.text.push(b'\n');
             }
         }
     }
 
     fn verbatim(&mut self, line: &Line, text: &str) {
         let remarks = match self.style.comments {
-            Comments::Layers => true,
-            Comments::Head => self.size.is_none(),
+            Comments::Layers | Comments::Tags => true,
+            Comments::Head | Comments::HeadTags => self.size.is_none(),
             Comments::None => false,
         };
         let text = if remarks { text } else { bare(text) };
@@ -156,6 +167,20 @@ impl<'a> Pen<'a> {
         }
         if is_foreign(line) {
             (self.at, self.feed) = (Axes::default(), None);
+        }
+        if let Some((b'G', 92, words)) = command(text)
+            && let Some(count) = skein::command::word(words, b'E')
+        {
+            self.e = Extrusion::new(count * 100);
+        }
+    }
+
+    /// Whether tags are written here.
+    fn keeps_tags(&self) -> bool {
+        match self.style.comments {
+            Comments::Tags => true,
+            Comments::HeadTags => self.size.is_none(),
+            Comments::Layers | Comments::Head | Comments::None => false,
         }
     }
 
@@ -293,5 +318,14 @@ impl<'a> Pen<'a> {
         {
             remarks::width(width, &mut self.text);
         }
+    }
+}
+
+/// Whether a line is a tag: what the stages say to each other and no machine.
+fn is_tag(line: &Line) -> bool {
+    match line {
+        Line::Move(_) | Line::Arc(_) | Line::On | Line::Off | Line::Flow(_) | Line::Pasted(_) => false,
+        Line::Verbatim(text) => text.starts_with('('),
+        _ => true,
     }
 }

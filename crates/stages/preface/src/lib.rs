@@ -11,7 +11,7 @@ mod tests;
 /// Turns layers of loops into the first skein: a header and an outline for each loop.
 #[derive(Clone, Debug, Settings)]
 pub struct Preface {
-    /// A note of your own that travels with the print: clay, glaze, date. One line, no `<`.
+    /// A note of your own that travels with the print: clay, glaze, date. One line.
     #[setting(default = "")]
     pub meta: String,
     /// Write G90: coordinates are absolute. All of ours are; switch it off only for firmware that does not know G90.
@@ -84,7 +84,7 @@ impl Preface {
         }
         Line::value("meta", note).map(Some).map_err(|_| {
             Error::new(format!("meta = {note:?} cannot stand in a header tag"))
-                .hint("a note is one line without `<`")
+                .hint("a note is one line")
         })
     }
 }
