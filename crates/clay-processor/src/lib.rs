@@ -25,8 +25,10 @@
 //! the business of [`gcode`]; time, flow and collisions are the emulator's.
 
 mod arc;
+mod breaks;
 mod comments;
 mod habits;
+mod helix;
 mod json;
 mod layers;
 mod letter;
@@ -35,7 +37,11 @@ mod motion;
 mod processor;
 mod report;
 mod spirals;
+mod verdict;
 
-pub use json::to_json;
+pub use json::{json, to_json};
 pub use processor::{Options, Processor, process};
-pub use report::{Diagonal, DialectNote, Habit, Horizontal, Interruptions, Model, Report, Run, Vertical};
+pub use report::{
+    Crossing, Diagonal, DialectNote, Habit, Horizontal, Interruptions, Model, Pitch, Report, Run, Vertical,
+};
+pub use verdict::{Bed, Firmware, LayerHeights, Limits, Place, Rule, Severity, Verdict};

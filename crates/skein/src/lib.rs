@@ -27,7 +27,7 @@ pub use document::{Layer, Signature, Skein};
 pub use error::{Error, Place};
 pub use facts::{Bead, Facts, Section};
 pub use line::{Feature, Line, Mark, Move, Reader, Side, Tag};
-pub use machine::{Bed, BedShape, EUnit, Machine, Origin};
+pub use machine::{Bed, BedShape, EUnit, Firmware, Machine, Origin};
 pub use notes::{Note, Notes};
 pub use nozzle::{Nozzle, Span, boundary, spans};
 pub use settings::{Choice, Field, Kind, Setting, SettingError, Settings, Value};

@@ -1,0 +1,68 @@
+//! Finds layers that are laid twice.
+
+use super::findings::Findings;
+use super::rule::Rule;
+use crate::motion::EPSILON_Z;
+
+/// The strokes at one height so far.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Repeats {
+    height: f64,
+    first: usize,
+    strokes: Vec<(Stroke, f32)>,
+}
+
+/// From where to where, in microns.
+type Stroke = [i32; 4];
+
+/// A layer of fewer strokes is not worth a word: a line to and fro is no layer laid twice.
+const FEWEST: usize = 6;
+
+impl Repeats {
+    /// Clay was laid from one place to another, `length` apart, at this height.
+    #[inline]
+    pub(crate) fn stroke(
+        &mut self,
+        findings: &mut Findings,
+        index: usize,
+        height: f64,
+        from: (f64, f64),
+        to: (f64, f64),
+        squared: f64,
+    ) {
+        if (height - self.height).abs() > EPSILON_Z || self.strokes.is_empty() {
+            self.end(findings);
+            self.height = height;
+            self.first = index;
+        }
+        // The cast keeps what is out of reach at the border; there it does not matter.
+        let micron = |mm: f64| (mm * 1000.0).round_ties_even() as i32;
+        self.strokes.push(([from.0, from.1, to.0, to.1].map(micron), squared as f32));
+    }
+
+    /// The layer has ended.
+    #[inline]
+    pub(crate) fn end(&mut self, findings: &mut Findings) {
+        if !self.strokes.is_empty() {
+            self.judge(findings);
+        }
+    }
+
+    /// At least half of what is laid is laid again, in the same direction.
+    #[inline(never)]
+    fn judge(&mut self, findings: &mut Findings) {
+        if self.strokes.len() >= FEWEST {
+            self.strokes.sort_unstable_by_key(|(stroke, _)| *stroke);
+            let (mut once, mut again) = (0.0, 0.0);
+            for same in self.strokes.chunk_by(|one, next| one.0 == next.0) {
+                let length = same.first().map_or(0.0, |(_, squared)| f64::from(*squared).sqrt());
+                once += length;
+                again += length * (same.len() - 1) as f64;
+            }
+            if again > 0.0 && again >= once / 2.0 {
+                findings.add(Rule::RepeatedLayer, self.first, Some(self.height), again);
+            }
+        }
+        self.strokes.clear();
+    }
+}
