@@ -41,6 +41,8 @@ pub(crate) struct Move {
     pub(crate) clay: f64,
     /// The change of Z as far as it is known, mm.
     pub(crate) rise: f64,
+    /// What the change of Z adds up to since it last counted, mm; 0 while Z stays.
+    pub(crate) climb: f64,
     /// Z before; nothing if unknown.
     pub(crate) from: Option<f64>,
     /// Z after; nothing if unknown.
@@ -53,7 +55,7 @@ impl Move {
     pub(crate) fn made_up(x: f64, rise: f64, to: Option<f64>) -> Self {
         let class = if rise == 0.0 { Class::Flat } else { Class::Slope };
         let from = to.map(|to| to - rise);
-        Self { class, flat_squared: x * x, by: (x, 0.0), arc: None, clay: 1.0, rise, from, to }
+        Self { class, flat_squared: x * x, by: (x, 0.0), arc: None, clay: 1.0, rise, climb: rise, from, to }
     }
 
     /// The way in XY as far as it is known, mm.
@@ -102,6 +104,8 @@ pub(crate) struct Motion {
     x: Axis,
     y: Axis,
     z: Axis,
+    /// Z when it last changed by enough to count: a fine spiral rises by less in a line.
+    level: f64,
     e: f64,
     scale: f64,
     relative: bool,
@@ -133,6 +137,7 @@ impl Motion {
             x: unknown,
             y: unknown,
             z: unknown,
+            level: 0.0,
             e: 0.0,
             scale: 1.0,
             relative: false,
@@ -179,12 +184,14 @@ impl Motion {
             }
             G92 => {
                 let before = self.height();
+                let drift = self.z.at - self.level;
                 for (letter, axis) in [(b'X', &mut self.x), (b'Y', &mut self.y), (b'Z', &mut self.z)] {
                     if let Some(value) = words.get(letter) {
                         axis.set(value * self.scale);
                     }
                 }
                 self.e = words.get(b'E').map_or(self.e, |value| value * self.scale);
+                self.level = self.z.at - drift;
                 return Action::Reset { height: self.height() != before };
             }
             M82 => self.relative_e = false,
@@ -242,7 +249,12 @@ impl Motion {
         };
         let (flat_squared, arc) = way(x.by, y.by);
         let goes = flat_squared > EPSILON * EPSILON || x.becomes_known || y.becomes_known;
-        let climbs = z.by.abs() > EPSILON_Z || z.becomes_known;
+        let drift = self.z.at - self.level;
+        let climbs = drift.abs() > EPSILON_Z || z.becomes_known;
+        let climb = if climbs && !z.becomes_known { drift } else { 0.0 };
+        if climbs {
+            self.level = self.z.at;
+        }
         let class = match (goes, climbs, clay > EPSILON) {
             (true, false, true) => Class::Flat,
             (true, true, true) => Class::Slope,
@@ -254,7 +266,7 @@ impl Motion {
             (false, false, false) => Class::Still,
         };
         let by = (x.by, y.by);
-        Move { class, flat_squared, by, arc, clay, rise: z.by, from, to: self.height() }
+        Move { class, flat_squared, by, arc, clay, rise: z.by, climb, from, to: self.height() }
     }
 
     /// X and Y from the end stops, whatever `G92` has set; nothing if one of them is unknown.

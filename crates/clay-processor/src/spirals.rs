@@ -141,7 +141,7 @@ impl Climb {
             first: index,
             last: index,
             height: step.to,
-            rise: step.rise,
+            rise: step.climb,
             helix,
             helix_on: helix,
             slopes: 1,
@@ -156,7 +156,7 @@ impl Climb {
     #[inline]
     fn go_on(&mut self, index: usize, step: &Move) {
         self.last = index;
-        self.rise += step.rise;
+        self.rise += step.climb;
         self.helix_on.go_on(step);
         self.helix = self.helix_on;
         self.slopes += 1;

@@ -2,7 +2,7 @@
 
 use crate::Profile;
 use clay_processor as check;
-use skein::{Bead, BedShape, Choice, Firmware, Machine, Micron, Ratio, Section, Value};
+use skein::{Bead, BedShape, Choice, Firmware, Machine, Micron, Section, Value};
 
 impl Profile {
     /// What a file for this profile is held against.
@@ -15,7 +15,8 @@ impl Profile {
         let first = millimetres("carve.first_layer_height");
         let width = millimetres("carve.bead_width");
         let machine = &self.machine;
-        let known = |limit: Ratio| Some(limit.f64()).filter(|limit| *limit > 0.0);
+        // Zero is what nobody knows.
+        let known = |limit: f64| Some(limit).filter(|limit| *limit > 0.0);
         let bead = || {
             let section = match self.get("carve.bead_section") {
                 Some((_, Value::Text(word))) => Section::WORDS.iter().position(|(known, _)| *known == word),
@@ -29,8 +30,8 @@ impl Profile {
             layers: rest.zip(first).map(|(rest, first)| check::LayerHeights { first, rest }),
             bead_width: width,
             e_per_mm3: bead().map(|bead| machine.e_unit.per_mm3(bead.area())),
-            max_e_speed: known(machine.max_e_speed),
-            max_flow: known(machine.max_flow),
+            max_e_speed: known(machine.max_e_speed.f64()),
+            max_flow: known(f64::from(machine.max_flow)),
             heated: Some(machine.heated),
             firmware: match machine.firmware {
                 Firmware::Unknown => None,
@@ -39,7 +40,7 @@ impl Profile {
                 Firmware::Klipper => Some(check::Firmware::Klipper),
                 Firmware::Plain => Some(check::Firmware::Plain),
             },
-            longest_e: Some(f64::from(machine.longest_e)).filter(|longest| *longest > 0.0),
+            longest_e: known(f64::from(machine.longest_e)),
         }
     }
 }

@@ -27,11 +27,11 @@ pub struct Machine {
     #[setting(default = false)]
     pub heated: bool,
     /// How fast E can go, in its unit per second; 0 if nobody knows. Faster moves are slowed down by the firmware.
-    #[setting(default = 0.0, min = 0.0, max = 2000.0)]
+    #[setting(default = 0.0, min = 0.0, max = 1000.0)]
     pub max_e_speed: Ratio,
     /// How much clay the pump can give; 0 if nobody knows. More makes thinner beads.
-    #[setting(default = 0.0, min = 0.0, max = 2000.0, unit = "mm³/s")]
-    pub max_flow: Ratio,
+    #[setting(default = 0, min = 0, max = 1000000, unit = "mm³/s")]
+    pub max_flow: u32,
     /// The longest way of E that the firmware takes in one move, in the unit of E; 0 for what the firmware comes with.
     #[setting(default = 0, min = 0, max = 1000000000)]
     pub longest_e: u32,
