@@ -4,8 +4,8 @@ use clay_processor::process;
 use gcode::{Command, Line};
 use skein::{Error, Place};
 
-use crate::foot::Foot;
 use crate::follow::{Zone, Zones, clear, is_curve, refuse_curve};
+use crate::foot::Foot;
 use crate::machine::{Act, Machine, Move};
 use crate::survey::{Extent, Survey};
 use crate::tape::{Raw, line_end, raw_lines, split_bom};
@@ -109,7 +109,11 @@ impl Base {
             let zone = zones.feed(index, &line, &act);
             match &act {
                 _ if index >= pot.survey.lead && index < pot.start => {
-                    if is_machine_command(&line) { writer.keep(raw, &line) } else { writer.leave_out(raw) }
+                    if is_machine_command(&line) {
+                        writer.keep(raw, &line)
+                    } else {
+                        writer.leave_out(raw)
+                    }
                 }
                 Act::Move(step) if zone == Zone::Part => {
                     writer.go(raw, &line, step, &moved(step, [0.0, 0.0, shift.rise], 1.0));
@@ -236,9 +240,12 @@ fn refuse_units(ratio: f64) -> Result<(), Error> {
     if (1.0 / UNLIKE..=UNLIKE).contains(&ratio) {
         return Ok(());
     }
-    let message = format!("the other base lays {ratio:.3} times the E of this spiral on a millimetre of bead");
-    Err(Error::new(message)
-        .hint(format!("its E seems to be of another unit; if so, multiply it: --e-factor {:.4}", 1.0 / ratio)))
+    let message =
+        format!("the other base lays {ratio:.3} times the E of this spiral on a millimetre of bead");
+    Err(Error::new(message).hint(format!(
+        "its E seems to be of another unit; if so, multiply it: --e-factor {:.4}",
+        1.0 / ratio
+    )))
 }
 
 /// How far the spiral stands out over the base, mm.
@@ -265,8 +272,9 @@ impl Pot {
         let survey = Survey::of(text)?;
         let spirals = process(text).machine.spirals;
         let spiral = spirals.first().ok_or_else(|| {
-            Error::new("the file has no spiral, so there is no base to replace")
-                .hint("the base is what is printed before the first spiral; print the pot in spiral (vase) mode")
+            Error::new("the file has no spiral, so there is no base to replace").hint(
+                "the base is what is printed before the first spiral; print the pot in spiral (vase) mode",
+            )
         })?;
         let start = spiral.start_index;
         let beads = beads_between(text, start, spiral.end_index);

@@ -22,9 +22,8 @@ pub const HEATERS: [&str; 6] = ["M104", "M109", "M140", "M190", "M141", "M191"];
 pub const FANS: [&str; 2] = ["M106", "M107"];
 
 /// What moves, or decides what a later move means: without it everything behind would go elsewhere.
-const NEEDED: [&str; 15] = [
-    "G0", "G1", "G2", "G3", "G17", "G18", "G19", "G20", "G21", "G28", "G90", "G91", "G92", "M82", "M83",
-];
+const NEEDED: [&str; 15] =
+    ["G0", "G1", "G2", "G3", "G17", "G18", "G19", "G20", "G21", "G28", "G90", "G91", "G92", "M82", "M83"];
 
 impl Clean {
     pub(crate) fn apply(&self, text: &[u8]) -> Result<Edited, Error> {

@@ -44,8 +44,11 @@ impl Foot {
                 continue;
             }
             if matches!(raw.text.trim_ascii_start().first(), Some(b'N' | b'n')) {
-                return Err(Error::line(index, "its lines are numbered, which cannot be mixed with another file")
-                    .hint("take a file without line numbers"));
+                return Err(Error::line(
+                    index,
+                    "its lines are numbered, which cannot be mixed with another file",
+                )
+                .hint("take a file without line numbers"));
             }
             last = Some(index);
             clay += step.clay;

@@ -165,5 +165,6 @@ fn amount(what: &str, value: f64, most: f64) -> Result<f64, Error> {
     if value.is_finite() && (0.0..=most).contains(&value) {
         return Ok(value);
     }
-    Err(Error::new(format!("{what} is {value}, and must be between 0 and {most}")).hint("give a number in mm"))
+    Err(Error::new(format!("{what} is {value}, and must be between 0 and {most}"))
+        .hint("give a number in mm"))
 }

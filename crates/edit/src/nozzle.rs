@@ -56,7 +56,11 @@ impl Nozzle {
     pub(crate) fn apply(&self, text: &[u8]) -> Result<Edited, Error> {
         let [old, new] = [("the old nozzle", self.old), ("the new nozzle", self.new)].map(|(what, size)| {
             let size = amount(what, size, 1000.0)?;
-            if size > 0.0 { Ok(size) } else { Err(Error::new(format!("{what} is 0 mm wide")).hint("give its bore in mm")) }
+            if size > 0.0 {
+                Ok(size)
+            } else {
+                Err(Error::new(format!("{what} is 0 mm wide")).hint("give its bore in mm"))
+            }
         });
         let (old, new) = (old?, new?);
         let survey = Survey::of(text)?;
@@ -66,14 +70,20 @@ impl Nozzle {
             factor("the height of a layer", height)?;
             let narrow = old.min(new) * spread;
             if height > narrow {
-                let message = format!("a layer of {height:.3} mm is higher than a bead of {narrow:.3} mm is wide");
-                return Err(Error::new(message).hint("such a bead is no stadium: choose the section `ellipse`"));
+                let message =
+                    format!("a layer of {height:.3} mm is higher than a bead of {narrow:.3} mm is wide");
+                return Err(
+                    Error::new(message).hint("such a bead is no stadium: choose the section `ellipse`")
+                );
             }
             let area = |nozzle: f64| self.section.area(nozzle * spread, height);
             (area(new) / area(old), format!("layers of {height:.3} mm"))
         } else {
             // Width and height are factors of the area, and all but the nozzle is the same in both.
-            (self.section.area(new, 1.0) / self.section.area(old, 1.0), "layers as high as they are".to_owned())
+            (
+                self.section.area(new, 1.0) / self.section.area(old, 1.0),
+                "layers as high as they are".to_owned(),
+            )
         };
         let ratio = factor("the factor of E", ratio)?;
         let aim = |zone: Zone, _: &Line, was: &Move, _: &Machine| {
@@ -90,7 +100,8 @@ fn measured_layer(text: &[u8]) -> Result<f64, Error> {
     let layers = process(text).machine.layers;
     let mut heights: Vec<f64> = layers.iter().filter_map(|layer| layer.height).collect();
     heights.sort_by(f64::total_cmp);
-    let mut gaps: Vec<f64> = heights.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > EPSILON_Z).collect();
+    let mut gaps: Vec<f64> =
+        heights.windows(2).map(|pair| pair[1] - pair[0]).filter(|gap| *gap > EPSILON_Z).collect();
     gaps.sort_by(f64::total_cmp);
     gaps.get(gaps.len() / 2).copied().ok_or_else(|| {
         Error::new("the height of a layer cannot be measured: the file has no two layers")

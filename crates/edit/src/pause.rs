@@ -118,7 +118,9 @@ impl Pause {
             line.read(raw.text);
             let Act::Move(step) = machine.obey(&line) else { continue };
             let is_beyond = match limit {
-                Stop::Above(height) => index >= survey.lead && step.prints() && step.to[2] > height + EPSILON_Z,
+                Stop::Above(height) => {
+                    index >= survey.lead && step.prints() && step.to[2] > height + EPSILON_Z
+                }
                 Stop::Line(first) => index >= first,
             };
             if is_beyond {
@@ -129,7 +131,8 @@ impl Pause {
             }
         }
         last.ok_or_else(|| {
-            Error::new("nothing is printed before the stop").hint("a spiral without a base has no pause behind it")
+            Error::new("nothing is printed before the stop")
+                .hint("a spiral without a base has no pause behind it")
         })
     }
 

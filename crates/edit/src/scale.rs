@@ -105,8 +105,7 @@ impl Scale {
 fn targets(was: &Move, now: &Machine, stretch: Point, centre: Point) -> [Option<f64>; 3] {
     std::array::from_fn(|axis| {
         let moves = was.known[axis] || was.to[axis] != was.from[axis];
-        (moves && stretch[axis] != 1.0)
-            .then(|| stretched(was, now, axis, stretch[axis], centre[axis]))
+        (moves && stretch[axis] != 1.0).then(|| stretched(was, now, axis, stretch[axis], centre[axis]))
     })
 }
 

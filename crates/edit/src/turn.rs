@@ -2,7 +2,7 @@
 
 use gcode::Line;
 
-use crate::machine::{Act, Machine, Move, Point};
+use crate::machine::{Act, EPSILON, Machine, Move, Point};
 use crate::tape::{raw_lines, split_bom};
 
 /// A bead has come round when it passes this near, as a share of the way it went.
@@ -126,15 +126,15 @@ fn turn_of(bead: impl Iterator<Item = Leg>) -> Option<Vec<Leg>> {
         }
         let first = *start.get_or_insert(leg);
         let (share, distance) = leg.nearest(first.from);
-        let is_near = distance <= NEAR * (length + leg.length() * share);
+        let is_near = length > 0.0 && distance <= NEAR * (length + leg.length() * share);
         match best {
-            Some((_, _, nearest)) if !is_near || distance > nearest => break,
+            Some((_, _, nearest)) if !is_near || distance > nearest - EPSILON => break,
             _ if is_near && !is_opposite(&first, &leg) => best = Some((turn.len(), share, distance)),
             _ => {}
         }
         length += leg.length();
         turn.push(leg);
-        if distance == 0.0 && best.is_some() {
+        if distance <= EPSILON && best.is_some() {
             break;
         }
     }
@@ -182,9 +182,17 @@ mod tests {
 
     #[test]
     fn a_square_and_a_narrow_wall_come_round_once() {
-        let square = bead(&[[0.0, 0.0, 1.0], [40.0, 0.0, 1.0], [40.0, 40.0, 1.0], [0.0, 40.0, 1.0], [0.0, 0.0, 1.0]]);
+        let square =
+            bead(&[[0.0, 0.0, 1.0], [40.0, 0.0, 1.0], [40.0, 40.0, 1.0], [0.0, 40.0, 1.0], [0.0, 0.0, 1.0]]);
         assert_eq!(last_turn(&square).expect("a square").len(), 4);
-        let wall = bead(&[[50.0, 0.0, 1.0], [100.0, 0.0, 1.0], [100.0, 2.0, 1.0], [0.0, 2.0, 1.0], [0.0, 0.0, 1.0], [50.0, 0.0, 1.0]]);
+        let wall = bead(&[
+            [50.0, 0.0, 1.0],
+            [100.0, 0.0, 1.0],
+            [100.0, 2.0, 1.0],
+            [0.0, 2.0, 1.0],
+            [0.0, 0.0, 1.0],
+            [50.0, 0.0, 1.0],
+        ]);
         assert_eq!(last_turn(&wall).expect("a wall").len(), 5, "the other side is no end of the turn");
     }
 

@@ -12,6 +12,8 @@ use crate::words::{Changes, checksum, is_written_alike, rewrite, write_number};
 
 /// Decimals of a length or of E that is computed: a hundredth of a micron, so that what is edited back comes back.
 const DECIMALS: u32 = 5;
+/// The same in inches.
+const DECIMALS_OF_INCHES: u32 = 7;
 /// Decimals of a feed.
 const FEED_DECIMALS: u32 = 3;
 
@@ -84,11 +86,12 @@ impl Writer {
     /// A move, with the words that let it do what it shall. `was` is what it did.
     pub(crate) fn go(&mut self, raw: Raw<'_>, line: &Line, was: &Move, aim: &Aim) {
         let mut changes = Changes::default();
+        let decimals = self.decimals();
         self.change_axes(&mut changes, line, aim);
         if aim.arc != 1.0 {
             for letter in *b"IJKR" {
                 if let Some(value) = line.words.get(letter) {
-                    changes.put(letter, value * aim.arc, DECIMALS);
+                    changes.put(letter, value * aim.arc, decimals);
                 }
             }
         }
@@ -96,12 +99,12 @@ impl Writer {
         match line.words.get(b'E') {
             Some(old) => {
                 let new = self.machine.word_of_clay(wanted);
-                if !is_written_alike(old, new, DECIMALS) {
-                    changes.put(b'E', new, DECIMALS);
+                if !is_written_alike(old, new, decimals) {
+                    changes.put(b'E', new, decimals);
                 }
             }
             None if aim.clay != was.clay => {
-                changes.put(b'E', self.machine.word_of_clay(wanted), DECIMALS);
+                changes.put(b'E', self.machine.word_of_clay(wanted), decimals);
             }
             None => {}
         }
@@ -125,22 +128,31 @@ impl Writer {
         }
     }
 
+    fn decimals(&self) -> u32 {
+        if self.machine.scale() == 1.0 { DECIMALS } else { DECIMALS_OF_INCHES }
+    }
+
     fn change_axes(&self, changes: &mut Changes, line: &Line, aim: &Aim) {
+        let decimals = self.decimals();
         for (axis, letter) in AXES.into_iter().enumerate() {
             let Some(place) = aim.to[axis] else { continue };
             let new = self.machine.word_to(axis, place);
             let differs = match line.words.get(letter) {
-                Some(old) => !is_written_alike(old, new, DECIMALS),
+                Some(old) => !is_written_alike(old, new, decimals),
                 // Nothing is added for what rounding has left.
                 None => {
                     let stands = self.machine.place()[axis].is_some_and(|at| {
-                        is_written_alike(at / self.machine.scale(), place / self.machine.scale(), DECIMALS - 1)
+                        is_written_alike(
+                            at / self.machine.scale(),
+                            place / self.machine.scale(),
+                            decimals - 1,
+                        )
                     });
                     !stands
                 }
             };
             if differs {
-                changes.put(letter, new, DECIMALS);
+                changes.put(letter, new, decimals);
             }
         }
     }
@@ -175,6 +187,7 @@ impl Writer {
 
     /// A move of our own, in whatever modes the printer is: to the axes named, with so much clay, at so many mm/min.
     pub(crate) fn draw(&mut self, to: [Option<f64>; 3], clay: f64, feed: Option<f64>) {
+        let decimals = self.decimals();
         let mut text = b"G1".to_vec();
         let mut put = |letter: u8, value: f64, decimals: u32| {
             text.extend_from_slice(&[b' ', letter]);
@@ -182,12 +195,12 @@ impl Writer {
         };
         for ((axis, letter), place) in AXES.into_iter().enumerate().zip(to) {
             if let Some(place) = place {
-                put(letter, self.machine.word_to(axis, place), DECIMALS);
+                put(letter, self.machine.word_to(axis, place), decimals);
             }
         }
         let wanted = clay + self.owed;
         if clay != 0.0 {
-            put(b'E', self.machine.word_of_clay(wanted), DECIMALS);
+            put(b'E', self.machine.word_of_clay(wanted), decimals);
         }
         let scale = self.machine.scale();
         if let Some(feed) = feed
@@ -209,7 +222,7 @@ impl Writer {
     pub(crate) fn call_e(&mut self, value: f64) {
         if !self.machine.is_relative_e() {
             let mut text = b"G92 E".to_vec();
-            write_number(&mut text, value / self.machine.scale(), DECIMALS);
+            write_number(&mut text, value / self.machine.scale(), self.decimals());
             self.insert(&String::from_utf8_lossy(&text));
         }
         self.owed = 0.0;
