@@ -6,7 +6,7 @@ use skein::{Error, Place};
 
 use crate::follow::{Zone, Zones, clear, is_curve, refuse_curve};
 use crate::foot::Foot;
-use crate::machine::{Act, Machine, Move};
+use crate::machine::{Act, EPSILON_Z, Machine, Move};
 use crate::survey::{Extent, Survey};
 use crate::tape::{Raw, line_end, raw_lines, split_bom};
 use crate::turn::{Leg, beads_between, first_turn};
@@ -137,6 +137,8 @@ impl Base {
             if index == foot.survey.lead {
                 writer.insert("; edit base: begin");
                 switch(writer, &machine);
+                writer.draw([None; 3], 0.0, machine.feed());
+                writer.call_e(machine.e_word() * machine.scale());
             }
             let act = machine.obey(&line);
             if index < foot.survey.lead {
@@ -199,7 +201,7 @@ impl Base {
     }
 }
 
-/// Brings the printer into the modes, the feed and the E of `machine`.
+/// Brings the printer into the modes of `machine`.
 fn switch(writer: &mut Writer, machine: &Machine) {
     let (old, new) = (writer.machine.modes(), machine.modes());
     // On some firmware G90 and G91 take E along, so what E is comes last and is said with them.
@@ -209,8 +211,6 @@ fn switch(writer: &mut Writer, machine: &Machine) {
             writer.insert(to);
         }
     }
-    writer.draw([None; 3], 0.0, machine.feed());
-    writer.call_e(machine.e_word() * machine.scale());
 }
 
 fn moved(step: &Move, by: [f64; 3], e_factor: f64) -> Aim {
@@ -290,6 +290,10 @@ impl Pot {
         let clay: f64 = beads.iter().map(|leg| leg.clay).sum();
         let length: f64 = beads.iter().map(Leg::length).sum();
         let pitch = extent.high[2] - extent.low[2];
+        if pitch <= EPSILON_Z || length <= 0.0 {
+            return Err(Error::line(start, "the first turn of the spiral does not climb")
+                .hint("print the pot in spiral (vase) mode"));
+        }
         let (base_top, lowest) = heights(text, &survey, start);
         Ok(Self { survey, start, turn: extent, base_top, lowest, density: clay / length / pitch })
     }

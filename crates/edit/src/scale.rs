@@ -6,7 +6,7 @@ use skein::Error;
 use crate::follow::{Zone, clear, follow};
 use crate::machine::{Machine, Move, Point};
 use crate::survey::Survey;
-use crate::writer::{Aim, stretched};
+use crate::writer::Aim;
 use crate::{Edited, factor, said};
 
 /// Scales the part about its middle and the bed.
@@ -58,7 +58,7 @@ impl Scale {
                 Zone::Start => Aim::same(was),
                 Zone::End => Aim { to: [None, None, clear(was, now, survey.top, new_top)], ..Aim::same(was) },
                 Zone::Part => Aim {
-                    to: targets(was, now, stretch, centre),
+                    to: targets(was, now, stretch, centre, survey.top),
                     clay: clay(was, section, stretch)?,
                     feed: None,
                     arc: arc_factor(was, stretch)?,
@@ -101,11 +101,17 @@ impl Scale {
     }
 }
 
-/// Where the axes of a move shall go. An axis that was never told anything is left alone.
-fn targets(was: &Move, now: &Machine, stretch: Point, centre: Point) -> [Option<f64>; 3] {
+/// Where the axes of a move shall go. An axis that was never told anything is left alone; of an unknown place the way
+/// is stretched. What lies above the part keeps its distance to it.
+fn targets(was: &Move, now: &Machine, stretch: Point, centre: Point, top: f64) -> [Option<f64>; 3] {
     std::array::from_fn(|axis| {
-        let moves = was.known[axis] || was.to[axis] != was.from[axis];
-        (moves && stretch[axis] != 1.0).then(|| stretched(was, now, axis, stretch[axis], centre[axis]))
+        let (from, to, by) = (was.from[axis], was.to[axis], stretch[axis]);
+        let moves = was.known[axis] || to != from;
+        (moves && by != 1.0).then(|| match was.known[axis] {
+            true if axis == 2 && to > top => top * by + (to - top),
+            true => centre[axis] + (to - centre[axis]) * by,
+            false => now.at(axis) + (to - from) * by,
+        })
     })
 }
 

@@ -4,7 +4,7 @@
 //! shall do; what its words must be follows from where the second machine stands and in what modes. So a line needs no
 //! change unless it would do something else, and rounding is never carried on: each word makes up for the last.
 
-use gcode::{Line, Token, Tokens};
+use gcode::{Kind, Line, Token, Tokens};
 
 use crate::machine::{AXES, Act, Machine, Move};
 use crate::tape::Raw;
@@ -75,11 +75,14 @@ impl Writer {
     /// A line as it is.
     pub(crate) fn keep(&mut self, raw: Raw<'_>, line: &Line) {
         if has_number(raw.text) {
-            return self.change(raw, Changes::default());
+            self.rewrite(raw, Changes::default());
+            return;
         }
         self.out.extend_from_slice(raw.text);
         self.out.extend_from_slice(raw.end);
-        self.numbers.last = None;
+        if line.kind == Kind::Code {
+            self.numbers.last = None;
+        }
         self.machine.obey(line);
     }
 
@@ -235,10 +238,6 @@ impl Writer {
         }
     }
 
-    fn change(&mut self, raw: Raw<'_>, changes: Changes) {
-        self.rewrite(raw, changes);
-    }
-
     /// Writes the changed line, reads what was written, and does it.
     fn rewrite(&mut self, raw: Raw<'_>, mut changes: Changes) -> Act {
         self.scratch.read(raw.text);
@@ -263,16 +262,6 @@ impl Writer {
         let act = self.machine.obey(&self.scratch);
         self.out.extend_from_slice(raw.end);
         act
-    }
-}
-
-/// The place that an axis shall have, stretched and moved: `centre` stays where it is. Of an unknown place only the way
-/// is stretched.
-pub(crate) fn stretched(was: &Move, now: &Machine, axis: usize, factor: f64, centre: f64) -> f64 {
-    if was.known[axis] {
-        centre + (was.to[axis] - centre) * factor
-    } else {
-        now.at(axis) + (was.to[axis] - was.from[axis]) * factor
     }
 }
 
