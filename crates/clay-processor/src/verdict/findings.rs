@@ -40,11 +40,6 @@ impl Findings {
         finding.last = index;
     }
 
-    /// Whether `rule` is kept.
-    pub(crate) fn is_free_of(&self, rule: Rule) -> bool {
-        self.0.get(rule as usize).is_none_or(|finding| finding.count == 0)
-    }
-
     /// The rules that are broken, the worst first.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (Rule, &Finding)> {
         Rule::ALL.iter().copied().zip(&self.0).filter(|(_, finding)| finding.count > 0)

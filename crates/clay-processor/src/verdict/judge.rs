@@ -34,7 +34,9 @@ pub(crate) struct Judge {
     /// Where the nozzle is, from the end stops.
     at: Option<(f64, f64)>,
     layer: LayerSize,
-    /// The highest clay, and the last.
+    /// Clay has been laid.
+    printed: bool,
+    /// The highest clay, and the last, as far as heights are known.
     highest: Option<f64>,
     last: Option<f64>,
     over: Option<End>,
@@ -72,6 +74,7 @@ impl Judge {
             repeats: Repeats::default(),
             at: None,
             layer: LayerSize { height: known.unwrap_or(0.0), known: known.is_some() },
+            printed: false,
             highest: None,
             last: None,
             over: None,
@@ -103,7 +106,7 @@ impl Judge {
     /// A line that moves nothing, behind which the printer is as `motion` says.
     pub(crate) fn command(&mut self, index: usize, line: &Line, motion: &Motion) {
         self.control.command(&mut self.findings, index, line, motion);
-        if self.last.is_some() {
+        if self.printed {
             self.over = self.over.or(End::of(line));
         }
         // Homing and `G92` move nothing that a way could be drawn to.
@@ -112,6 +115,7 @@ impl Judge {
 
     #[inline(always)]
     fn print(&mut self, index: usize, step: &Move, motion: &Motion, place: Option<(f64, f64)>) {
+        self.printed = true;
         self.breaks.print(self.ground.cell());
         self.control.push(&mut self.findings, index, step);
         self.pump.print(&mut self.findings, index, step);
@@ -119,7 +123,6 @@ impl Judge {
             self.overrun(index, step, end);
         }
         let Some(altitude) = motion.altitude() else {
-            self.last = self.last.or(step.to);
             return self.findings.add(Rule::UnknownHeight, index, None, 0.0);
         };
         self.rise(index, step, altitude);
@@ -252,7 +255,7 @@ impl Judge {
             }
         }
         room::look(self.limits.bed.as_ref(), &mut self.findings, index, false, end.0, end.1);
-        if self.last.is_some() {
+        if self.printed {
             self.breaks.travel(index, step.length(), air);
         }
     }
@@ -287,7 +290,7 @@ impl Judge {
     pub(crate) fn finish(mut self, machine: &Model, pitches: &[Pitch]) -> (Vec<Verdict>, Interruptions) {
         self.stop_hanging();
         self.repeats.end(&mut self.findings);
-        if self.last.is_none() && self.findings.is_free_of(Rule::UnknownHeight) {
+        if !self.printed {
             self.findings.add(Rule::NothingPrinted, 0, None, 0.0);
         }
         let found = self.breaks.found;

@@ -35,8 +35,8 @@ impl Repeats {
             self.height = height;
             self.first = index;
         }
-        // The cast keeps what is out of reach at the border; there it does not matter.
-        let micron = |mm: f64| (mm * 1000.0).round_ties_even() as i32;
+        // The cast keeps what is out of reach at the border, where it does not matter, and is faster than rounding.
+        let micron = |mm: f64| (mm * 1000.0 + if mm < 0.0 { -0.5 } else { 0.5 }) as i32;
         self.strokes.push(([from.0, from.1, to.0, to.1].map(micron), squared as f32));
     }
 

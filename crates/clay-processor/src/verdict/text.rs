@@ -31,7 +31,8 @@ pub(crate) fn verdicts(findings: &Findings, facts: &Facts<'_>, machine: &Model) 
             let place = (rule != Rule::NothingPrinted).then_some(place);
             let (what, why) = sentence(rule, finding, facts);
             let wherever = place.map_or_else(String::new, |place| said(&place, finding.count));
-            Verdict { rule, severity, place, count: finding.count, text: format!("{wherever}{what}; {why}") }
+            let count = if rule == Rule::Interrupted { facts.breaks.count } else { finding.count };
+            Verdict { rule, severity, place, count, text: format!("{wherever}{what}; {why}") }
         })
         .collect();
     verdicts.sort_by_key(|verdict| verdict.severity);
