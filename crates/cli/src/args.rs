@@ -189,7 +189,7 @@ Edits, made in the order in which they stand; `clayforge edit - scale --help` an
   scale   --factor F | --height MM [--axes xyz|z] [--bead]
   speed   --factor F | --bottom F --top F [--travels]
   nozzle  --old MM --new MM [--section rectangle|stadium|ellipse] [--spread F] [--layer MM]
-  base    OTHER.gcode [--e-factor F] [--lift MM]
+  base    OTHER.gcode [--height MM] [--e-factor F] [--lift MM]
   clean   [COMMAND,...] [--heaters] [--fans]
   rim     --turns N [--rise MM] [--flow F]
   pause   --at MM | --after-base [--lift MM] [--park X,Y] [--prime E] [--relieve E] [--wait COMMAND]

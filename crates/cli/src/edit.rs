@@ -139,6 +139,9 @@ enum SectionWord {
 struct BaseWords {
     /// The file whose base is taken
     other: PathBuf,
+    /// Up to where it is a base [default: up to its spiral, or all of it]
+    #[arg(long, value_name = "MM", allow_negative_numbers = true)]
+    height: Option<f64>,
     /// What its E is multiplied by, when it is of another unit
     #[arg(long, value_name = "F")]
     e_factor: Option<f64>,
@@ -243,9 +246,12 @@ impl One {
                 spread: words.spread,
                 layer: words.layer,
             }),
-            Self::Base(words) => {
-                Edit::Base(Base { other: read(&words.other)?, e_factor: words.e_factor, lift: words.lift })
-            }
+            Self::Base(words) => Edit::Base(Base {
+                other: read(&words.other)?,
+                height: words.height,
+                e_factor: words.e_factor,
+                lift: words.lift,
+            }),
             Self::Clean(words) => {
                 let mut commands = words.commands;
                 commands.extend(HEATERS.iter().filter(|_| words.heaters).map(|&name| name.to_owned()));

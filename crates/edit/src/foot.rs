@@ -22,14 +22,15 @@ pub(crate) struct Foot {
 }
 
 impl Foot {
-    /// The base of `text`.
+    /// The base of `text`: what it prints before its spiral, or before the first bead above `limit`.
     ///
     /// # Errors
     /// When nothing is printed before the spiral, or lines are numbered.
-    pub(crate) fn of(text: &[u8]) -> Result<Self, Error> {
+    pub(crate) fn of(text: &[u8], limit: Option<f64>) -> Result<Self, Error> {
         let survey = Survey::of(text)?;
         let spirals = process(text).machine.spirals;
         let end = spirals.first().map_or(usize::MAX, |spiral| spiral.start_index);
+        let is_above = |height: f64| limit.is_some_and(|limit| height > limit + EPSILON_Z);
 
         let mut machine = Machine::new();
         let mut line = Line::default();
@@ -42,6 +43,9 @@ impl Foot {
             let Act::Move(step) = machine.obey(&line) else { continue };
             if index < survey.lead || !step.prints() {
                 continue;
+            }
+            if is_above(step.to[2]) {
+                break;
             }
             if matches!(raw.text.trim_ascii_start().first(), Some(b'N' | b'n')) {
                 return Err(Error::line(
@@ -64,8 +68,10 @@ impl Foot {
             }
         }
         let (Some(last), Some(&top)) = (last, heights.last()) else {
-            return Err(Error::new("it prints nothing before its spiral, so it has no base")
-                .hint("take a file whose pot has bottom layers"));
+            return Err(Error::new(
+                "it prints nothing before its spiral or up to that height, so it has no base",
+            )
+            .hint("take a file whose pot has bottom layers"));
         };
         let layer = top / heights.len() as f64;
         Ok(Self { survey, last, top, top_layer, density: clay / length / layer })

@@ -150,7 +150,7 @@ fn said(text: Vec<u8>, sentences: &[String]) -> Edited {
 fn factor(what: &str, value: f64) -> Result<f64, Error> {
     /// A thousand times as large or as small is no part of a printer any more.
     const MOST: f64 = 1000.0;
-    if value.is_finite() && value >= 1.0 / MOST && value <= MOST {
+    if (1.0 / MOST..=MOST).contains(&value) {
         return Ok(value);
     }
     Err(Error::new(format!("{what} is {value}, and must be between 0.001 and 1000"))
@@ -162,9 +162,9 @@ fn factor(what: &str, value: f64) -> Result<f64, Error> {
 /// # Errors
 /// When it is negative or beyond a metre.
 fn amount(what: &str, value: f64, most: f64) -> Result<f64, Error> {
-    if value.is_finite() && (0.0..=most).contains(&value) {
+    if (0.0..=most).contains(&value) {
         return Ok(value);
     }
     Err(Error::new(format!("{what} is {value}, and must be between 0 and {most}"))
-        .hint("give a number in mm"))
+        .hint("give a number in this range"))
 }

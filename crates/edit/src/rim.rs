@@ -94,9 +94,7 @@ impl Rim {
                 } else {
                     1.0
                 };
-                let at = writer.machine.at(2);
-                let lift = ((at - height).abs() > EPSILON_Z).then_some(height);
-                let to = [Some(leg.to[0]), Some(leg.to[1]), lift];
+                let to = [Some(leg.to[0]), Some(leg.to[1]), Some(height)];
                 writer.draw(to, leg.clay * self.flow * room, leg.feed);
             }
         }

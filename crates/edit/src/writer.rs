@@ -131,6 +131,13 @@ impl Writer {
         }
     }
 
+    /// Whether an axis is there already, but for what rounding has left.
+    fn stands_at(&self, axis: usize, place: f64) -> bool {
+        let scale = self.machine.scale();
+        self.machine.place()[axis]
+            .is_some_and(|at| is_written_alike(at / scale, place / scale, self.decimals() - 1))
+    }
+
     fn decimals(&self) -> u32 {
         if self.machine.scale() == 1.0 { DECIMALS } else { DECIMALS_OF_INCHES }
     }
@@ -142,17 +149,7 @@ impl Writer {
             let new = self.machine.word_to(axis, place);
             let differs = match line.words.get(letter) {
                 Some(old) => !is_written_alike(old, new, decimals),
-                // Nothing is added for what rounding has left.
-                None => {
-                    let stands = self.machine.place()[axis].is_some_and(|at| {
-                        is_written_alike(
-                            at / self.machine.scale(),
-                            place / self.machine.scale(),
-                            decimals - 1,
-                        )
-                    });
-                    !stands
-                }
+                None => !self.stands_at(axis, place),
             };
             if differs {
                 changes.put(letter, new, decimals);
@@ -188,7 +185,7 @@ impl Writer {
         self.machine.obey(&self.scratch);
     }
 
-    /// A move of our own, in whatever modes the printer is: to the axes named, with so much clay, at so many mm/min.
+    /// A move of our own, in whatever modes the printer is: to the places named, with so much clay, at so many mm/min.
     pub(crate) fn draw(&mut self, to: [Option<f64>; 3], clay: f64, feed: Option<f64>) {
         let decimals = self.decimals();
         let mut text = b"G1".to_vec();
@@ -197,7 +194,7 @@ impl Writer {
             write_number(&mut text, value, decimals);
         };
         for ((axis, letter), place) in AXES.into_iter().enumerate().zip(to) {
-            if let Some(place) = place {
+            if let Some(place) = place.filter(|&place| !self.stands_at(axis, place)) {
                 put(letter, self.machine.word_to(axis, place), decimals);
             }
         }

@@ -162,7 +162,7 @@ proptest! {
         let (text, base) = (pot.text().into_bytes(), other.text().into_bytes());
         // E goes with the section of the bead.
         let ratio = pot.flow / pot.layer / (other.flow / other.layer);
-        let edit = Edit::Base(Base { other: base.clone(), e_factor: Some(ratio), lift: 5.0 });
+        let edit = Edit::Base(Base { other: base.clone(), height: None, e_factor: Some(ratio), lift: 5.0 });
         let joined = edited(edit, &text);
         assert_sound(&joined, pot.dialect.crlf);
 
@@ -261,7 +261,7 @@ proptest! {
             1 => "[ -~é]{0,12}",
         ], 0..40), end in prop::sample::select(vec!["\n", "\r\n", "\r"])) {
         let text = text.join(end).into_bytes();
-        let other = Base { other: text.clone(), e_factor: Some(1.0), lift: 5.0 };
+        let other = Base { other: text.clone(), height: None, e_factor: Some(1.0), lift: 5.0 };
         for edit in [
             scale(0.5, Axes::Xyz, true), scale(2.0, Axes::Z, false), speed(0.5), nozzle(1.0, 2.0), rim(2, 1.0, 1.0),
             Edit::Base(other), Edit::Pause(Pause { at: At::Height(1.0), prime: 1.0, ..Pause::default() }),
