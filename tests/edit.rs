@@ -4,6 +4,7 @@ use crate::cli::Room;
 use crate::support::{blessing, clay, difference, example, root, sliced, text_of};
 use clayforge::clay_processor::process;
 use std::fs;
+use std::ops::Range;
 
 /// A case of the page.
 struct Case<'a> {
@@ -11,9 +12,17 @@ struct Case<'a> {
     words: &'a str,
     before: &'a str,
     other: Option<&'a str>,
-    /// What is expected, `after` or `error`, with its place in the page.
+    /// What is expected: the text of `after` or of `error`.
     expected: &'a str,
     is_error: bool,
+}
+
+impl Case<'_> {
+    /// Where the expectation stands in the page that it was cut from.
+    fn place(&self, page: &str) -> Range<usize> {
+        let start = self.expected.as_ptr() as usize - page.as_ptr() as usize;
+        start..start + self.expected.len()
+    }
 }
 
 /// The text of a fence and what follows it.
@@ -62,21 +71,20 @@ fn result(case: &Case<'_>, line_end: &str) -> String {
 fn the_page_is_the_test() {
     let path = root().join("crates/edit/README.md");
     let page = text_of(&path);
-    let mut blessed = page.clone();
+    let mut changed: Vec<(Range<usize>, String)> = Vec::new();
     let mut failures = String::new();
     for case in cases(&page) {
         let found = result(&case, "\n");
         if found != case.expected {
-            blessed = blessed.replacen(
-                &format!("{}```", case.expected),
-                &format!("{found}```"),
-                // The same expectation twice would be the same case.
-                1,
-            );
             failures += &format!("{}\n{}\n", case.name, difference(case.expected, &found));
+            changed.push((case.place(&page), found));
         }
     }
     if blessing() {
+        let mut blessed = page;
+        for (place, found) in changed.into_iter().rev() {
+            blessed.replace_range(place, &found);
+        }
         return fs::write(&path, blessed).expect("the page can be written");
     }
     assert!(failures.is_empty(), "{failures}");
