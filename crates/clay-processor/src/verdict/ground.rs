@@ -111,8 +111,16 @@ impl Ground {
         }
     }
 
+    /// Whether a move is so short that it is looked at in one place.
     #[inline]
-    fn cell_of(&self, place: (f64, f64)) -> Option<(usize, usize)> {
+    pub(crate) fn is_short(&self, from: (f64, f64), to: (f64, f64)) -> bool {
+        let (x, y) = (to.0 - from.0, to.1 - from.1);
+        x * x + y * y <= self.cell * self.cell / 4.0
+    }
+
+    /// The cell of a place, if it is on the map.
+    #[inline]
+    pub(crate) fn cell_of(&self, place: (f64, f64)) -> Option<(usize, usize)> {
         let corner = self.corner?;
         let (column, row) = ((place.0 - corner.0) / self.cell, (place.1 - corner.1) / self.cell);
         let side = (TILE * TILES) as f64;

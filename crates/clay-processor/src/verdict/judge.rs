@@ -43,6 +43,7 @@ pub(crate) struct Judge {
     /// The first end that clay was laid behind.
     overrun: Option<End>,
     hanging: Hanging,
+    spot: Option<Spot>,
 }
 
 /// How high a layer is, as far as it can be told.
@@ -51,6 +52,15 @@ struct LayerSize {
     height: f64,
     /// Somebody has said it, or clay has been laid at two heights.
     known: bool,
+}
+
+/// Where clay was laid last. Fine curves lay many strokes into one cell of the map, and only the first of them finds
+/// anything new there.
+#[derive(Clone, Copy, Debug)]
+struct Spot {
+    cell: (usize, usize),
+    altitude: f64,
+    hangs: bool,
 }
 
 /// A bead with nothing below it.
@@ -80,6 +90,7 @@ impl Judge {
             over: None,
             overrun: None,
             hanging: Hanging::default(),
+            spot: None,
         }
     }
 
@@ -150,29 +161,47 @@ impl Judge {
     #[inline(always)]
     fn stroke(&mut self, index: usize, class: Class, from: (f64, f64), to: (f64, f64), altitude: f64) {
         self.look(index, true, Some(to), altitude);
+        let length = (to.0 - from.0, to.1 - from.1);
+        if let Some(spot) = self.spot
+            && self.ground.is_short(from, to)
+            && (altitude - spot.altitude).abs() <= EPSILON_Z
+            && self.ground.cell_of(to) == Some(spot.cell)
+        {
+            if spot.hangs {
+                self.hang(index, altitude, length.0.hypot(length.1));
+            }
+            return;
+        }
         let same = self.layer.height / 2.0;
-        let deep = altitude - AIR * self.layer.height;
         let mut before = 0.0;
         for (place, share) in self.ground.along(from, to) {
-            let top = self.ground.top(place);
-            if class == Class::Flat && top.is_some_and(|top| top > altitude + same) {
-                let depth = top.unwrap_or(altitude) - altitude;
-                self.findings.add(Rule::IntoClay, index, Some(altitude), depth);
+            if class == Class::Flat
+                && let Some(top) = self.ground.top(place).filter(|top| *top > altitude + same)
+            {
+                self.findings.add(Rule::IntoClay, index, Some(altitude), top - altitude);
             }
-            // What lies on the bed, or little above it, does not fall.
-            if deep > 0.0 {
-                let below = self.ground.below(place, altitude, same);
-                if below.is_none_or(|below| below < deep)
-                    && self.ground.below_near(place, altitude, same).is_none_or(|below| below < deep)
-                {
-                    self.hang(index, altitude, (share - before) * (to.0 - from.0).hypot(to.1 - from.1));
-                } else {
-                    self.stop_hanging();
-                }
+            let hangs = self.hangs(place, altitude);
+            if hangs {
+                self.hang(index, altitude, (share - before) * length.0.hypot(length.1));
+            } else {
+                self.stop_hanging();
             }
             before = share;
             self.ground.lay(place, altitude, same);
+            self.spot = self.ground.cell_of(place).map(|cell| Spot { cell, altitude, hangs });
         }
+    }
+
+    /// Whether clay that is laid here falls.
+    #[inline]
+    fn hangs(&self, place: (f64, f64), altitude: f64) -> bool {
+        let deep = altitude - AIR * self.layer.height;
+        let same = self.layer.height / 2.0;
+        let falls = |below: Option<f64>| below.is_none_or(|below| below < deep);
+        // What lies on the bed, or little above it, does not fall.
+        deep > 0.0
+            && falls(self.ground.below(place, altitude, same))
+            && falls(self.ground.below_near(place, altitude, same))
     }
 
     #[inline(always)]
