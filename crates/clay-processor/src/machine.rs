@@ -47,7 +47,10 @@ impl Machine {
         match action {
             Action::Home => self.spirals.interrupt(),
             Action::Reset { height: false } => self.spirals.reset(index),
-            Action::Reset { height: true } => self.spirals.rename(),
+            Action::Reset { height: true } => {
+                self.spirals.rename();
+                self.judge.rename();
+            }
             _ => {}
         }
         self.judge.command(index, line, &self.motion);

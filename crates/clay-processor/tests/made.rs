@@ -99,7 +99,8 @@ proptest! {
         let found = report.pitches[0];
         // The last corner is not turned any more.
         prop_assert!((found.turns - turns as f64).abs() < 0.25, "{:?}", found);
-        prop_assert!((found.rise.expect("whole turns") / pitch - 1.0).abs() < 0.05, "{:?}", found);
+        // Where lobes bend to and fro, a turn is complete a little early or late.
+        prop_assert!((found.rise.expect("whole turns") / pitch - 1.0).abs() < 0.2 / turns as f64, "{:?}", found);
         prop_assert!(report.verdicts.iter().all(|verdict| verdict.rule == Rule::InAir), "{:?}", report.verdicts);
     }
 

@@ -44,6 +44,8 @@ pub(crate) struct Judge {
     overrun: Option<End>,
     hanging: Hanging,
     spot: Option<Spot>,
+    /// `G92` has called the height otherwise amid the print: the heights of layers cannot be compared any more.
+    renamed: bool,
 }
 
 /// How high a layer is, as far as it can be told.
@@ -91,6 +93,7 @@ impl Judge {
             overrun: None,
             hanging: Hanging::default(),
             spot: None,
+            renamed: false,
         }
     }
 
@@ -122,6 +125,11 @@ impl Judge {
         }
         // Homing and `G92` move nothing that a way could be drawn to.
         self.at = motion.place();
+    }
+
+    /// The height is called otherwise from now on.
+    pub(crate) fn rename(&mut self) {
+        self.renamed |= self.printed;
     }
 
     #[inline(always)]
@@ -330,7 +338,11 @@ impl Judge {
         for crossing in &found.open_air {
             self.findings.add(Rule::OpenAir, crossing.index, None, crossing.length);
         }
-        let usual = tower::judge(machine, pitches, &self.limits, &mut self.findings);
+        let usual = if self.renamed {
+            None
+        } else {
+            tower::judge(machine, pitches, &self.limits, &mut self.findings)
+        };
         let facts = text::Facts { limits: &self.limits, overrun: self.overrun, breaks: &found, usual };
         (text::verdicts(&self.findings, &facts, machine), found)
     }

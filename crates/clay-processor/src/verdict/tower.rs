@@ -11,6 +11,9 @@ const TOLERANCE: f64 = 0.02;
 /// A step of more than so many layers is a gap.
 const GAP: f64 = 1.5;
 
+/// After so many turns a spiral's pitch is known well.
+const FEWEST_TURNS: f64 = 2.0;
+
 /// A layer or a spiral.
 struct Storey {
     index: usize,
@@ -91,11 +94,12 @@ fn step(below: &Storey, above: &Storey, limits: &Limits, usual: Option<f64>, fin
     }
 }
 
-/// A spiral that rises as much as a layer in every turn is as it should be.
+/// A spiral that rises as much as a layer in every turn is as it should be. In its first turns the rise of a lobed pot
+/// is not known well enough to tell.
 fn climb(storey: &Storey, pitch: &Pitch, limits: &Limits, findings: &mut Findings) {
     let (Some(rise), Some(steepest)) = (pitch.rise, pitch.steepest) else { return };
     let is_off = |layers: super::LayerHeights| (rise - layers.rest).abs() > 0.1 * layers.rest;
-    if steepest > GAP * rise || limits.layers.is_some_and(is_off) {
+    if steepest > GAP * rise || pitch.turns > FEWEST_TURNS && limits.layers.is_some_and(is_off) {
         findings.add(Rule::SpiralPitch, storey.index, Some(storey.bottom), steepest.max(rise));
     }
 }
