@@ -40,8 +40,14 @@ impl Extent {
     }
 
     pub(crate) fn add_all(&mut self, other: &Self) {
-        self.add(other.low);
-        self.add(other.high);
+        for axis in 0..3 {
+            self.low[axis] = self.low[axis].min(other.low[axis]);
+            self.high[axis] = self.high[axis].max(other.high[axis]);
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.low[0] > self.high[0]
     }
 
     /// Adds all of a move.
@@ -74,6 +80,27 @@ struct Thread {
     lead: usize,
     last: usize,
     extent: Extent,
+    /// The height of its lowest bead, and the extents of what lies above that.
+    low: f64,
+    above: Extent,
+}
+
+impl Thread {
+    fn new(lead: usize) -> Self {
+        Self { lead, last: lead, extent: Extent::NONE, low: f64::INFINITY, above: Extent::NONE }
+    }
+
+    fn add(&mut self, index: usize, step: &Move) {
+        let height = step.to[2];
+        if height < self.low - EPSILON_Z {
+            self.above = self.extent;
+            self.low = height;
+        } else if height > self.low + EPSILON_Z {
+            self.above.add_move(step);
+        }
+        self.extent.add_move(step);
+        self.last = index;
+    }
 }
 
 impl Survey {
@@ -87,11 +114,15 @@ impl Survey {
             return Err(Error::new("nothing is printed in this file")
                 .hint("give it a G-code file whose moves have E words"));
         };
-        let mut extent = Extent::NONE;
-        for thread in threads.iter().skip_while(|thread| thread.last < first.last) {
+        let part = || threads.iter().skip_while(|thread| thread.last < first.last);
+        let lowest = part().map(|thread| thread.low).fold(f64::INFINITY, f64::min);
+        let (mut extent, mut above) = (Extent::NONE, Extent::NONE);
+        for thread in part() {
             extent.add_all(&thread.extent);
+            let is_higher = thread.low > lowest + EPSILON_Z;
+            above.add_all(if is_higher { &thread.extent } else { &thread.above });
         }
-        let centre = middle_above(text, first.lead, extent.low[2]).unwrap_or(extent.middle());
+        let centre = if above.is_empty() { extent.middle() } else { above.middle() };
         Ok(Self {
             lead: first.lead,
             last: last.last,
@@ -118,12 +149,11 @@ fn threads(text: &[u8]) -> (Vec<Thread>, Option<f64>) {
             Act::Move(step) if step.prints() => {
                 if !open {
                     let lead = lead.map_or(index, |(lead, _)| lead);
-                    threads.push(Thread { lead, last: index, extent: Extent::NONE });
+                    threads.push(Thread::new(lead));
                     open = true;
                 }
                 if let Some(thread) = threads.last_mut() {
-                    thread.last = index;
-                    thread.extent.add_move(&step);
+                    thread.add(index, &step);
                 }
                 lead = None;
                 travel_feed = travel_feed.or(step.feed);
@@ -159,24 +189,4 @@ fn first_of_part(threads: &[Thread]) -> Option<&Thread> {
         let is_purge = is_built_up && thread.extent.is_apart(behind);
         (!is_purge).then_some(thread)
     })
-}
-
-/// The middle of what is printed from the line `lead` on, above the lowest height; nothing if there is nothing above.
-fn middle_above(text: &[u8], lead: usize, bottom: f64) -> Option<[f64; 2]> {
-    let mut machine = Machine::new();
-    let mut line = Line::default();
-    let mut extent = Extent::NONE;
-    let mut found = false;
-    for (index, raw) in raw_lines(split_bom(text).1).enumerate() {
-        line.read(raw.text);
-        if let Act::Move(step) = machine.obey(&line)
-            && index >= lead
-            && step.prints()
-            && step.to[2] > bottom + EPSILON_Z
-        {
-            extent.add_move(&step);
-            found = true;
-        }
-    }
-    found.then(|| extent.middle())
 }
