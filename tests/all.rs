@@ -4,10 +4,12 @@
 //! * [`law`]: reading undoes writing, and views leave nothing out;
 //! * [`parts`]: whole prints, in memory and as text, on one thread and on two;
 //! * [`cli`]: the command as scripts and people meet it;
+//! * [`edit`]: the page of `clayforge edit` is its test;
 //! * [`tidy`]: the layout of the workspace.
 
 mod cases;
 mod cli;
+mod edit;
 mod law;
 mod parts;
 mod support;

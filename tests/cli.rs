@@ -38,10 +38,10 @@ fn program() -> &'static Path {
 }
 
 /// What a run of the command came to.
-struct Ran {
-    code: Option<i32>,
+pub struct Ran {
+    pub code: Option<i32>,
     out: Vec<u8>,
-    err: String,
+    pub err: String,
 }
 
 impl From<Output> for Ran {
@@ -55,30 +55,30 @@ impl From<Output> for Ran {
 }
 
 impl Ran {
-    fn out(&self) -> String {
+    pub fn out(&self) -> String {
         String::from_utf8_lossy(&self.out).into_owned()
     }
 
     #[track_caller]
-    fn done(self) -> Self {
+    pub fn done(self) -> Self {
         assert_eq!(self.code, Some(0), "{}", self.err);
         self
     }
 }
 
 /// A folder of one's own to run the command in; no profile of the user is found.
-struct Room(TempDir);
+pub struct Room(TempDir);
 
 impl Room {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self(TempDir::new().expect("a folder"))
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    fn put(&self, name: &str, bytes: impl AsRef<[u8]>) -> &Self {
+    pub fn put(&self, name: &str, bytes: impl AsRef<[u8]>) -> &Self {
         fs::write(self.path(name), bytes).expect("a file in a new folder");
         self
     }
@@ -94,12 +94,12 @@ impl Room {
         command
     }
 
-    fn run(&self, words: &[&str]) -> Ran {
+    pub fn run(&self, words: &[&str]) -> Ran {
         self.command(words).output().expect("the command runs").into()
     }
 
     /// Runs it with bytes on its standard input.
-    fn feed(&self, words: &[&str], input: &[u8]) -> Ran {
+    pub fn feed(&self, words: &[&str], input: &[u8]) -> Ran {
         let mut child = self
             .command(words)
             .stdin(Stdio::piped())
@@ -119,7 +119,7 @@ impl Room {
     }
 
     /// Every file with its bytes.
-    fn listing(&self) -> BTreeMap<String, Vec<u8>> {
+    pub fn listing(&self) -> BTreeMap<String, Vec<u8>> {
         let entries = fs::read_dir(self.0.path()).expect("the folder is there").flatten();
         entries.map(|entry| (name_of(&entry.path()), fs::read(entry.path()).unwrap_or_default())).collect()
     }
@@ -419,6 +419,59 @@ fn slice_writes_the_file_of_the_library_beside_the_part() {
         assert!(json["machine"].get(key).is_some() && json["letter"].get(key).is_some(), "no {key}");
     }
     assert_eq!(json["ok"], Json::Bool(true));
+}
+
+/// A start or an end that endangers the machine is found in the finished file, which then does not appear.
+#[test]
+fn slice_refuses_what_it_wrote_when_it_breaks_a_rule() {
+    for (set, says) in [
+        ("alteration.start=G28\nG1 Z-1 F600", "the nozzle goes to z -1"),
+        ("alteration.end=M84\nG1 X50 Y50 E500 F600", "after the motors were switched off"),
+        ("alteration.end=G91\nG1 Z40\nG90\nG1 X50 Y50 E500 F600", "mm above all that stands"),
+    ] {
+        let room = Room::new();
+        room.put("cube.stl", example("cube"));
+        let ran = room.run(&["slice", "cube.stl", "--set", set]);
+        assert_eq!(ran.code, Some(1), "{set}: {}", ran.err);
+        assert_message(&ran.err, &["check", "must not be printed", says]);
+        assert_eq!(room.listing().keys().collect::<Vec<_>>(), ["cube.stl"], "{set}");
+    }
+}
+
+#[test]
+fn check_tells_what_must_not_be_printed_from_what_is_only_worth_knowing() {
+    let room = Room::new();
+    room.put(
+        "mine.toml",
+        "[machine]\nbed = [100, 100, 50]\n[carve]\nlayer_height = 1\nfirst_layer_height = 1\n",
+    );
+    let layer =
+        |z: u32, x: u32| format!("G0 X{x} Y10 Z{z} F3000\nG1 X50 E1 F900\nG1 Y50 E1\nG1 X{x} Y10 E1\n");
+    let sound = format!("M83\nM302 P1\nG28\n{}{}", layer(1, 10), layer(2, 10));
+    let outside = format!("M104 S200\n{sound}{}", layer(3, 110));
+    for (name, text, ok, rules) in [
+        ("sound.gcode", &sound, true, vec!["interrupted"]),
+        ("outside.gcode", &outside, false, vec!["outside_bed", "heats", "travel_outside", "interrupted"]),
+    ] {
+        room.put(name, text);
+        let ran = room.run(&["check", name, "--profile", "mine.toml", "--json"]);
+        assert_eq!(ran.code, Some(i32::from(!ok)), "{name}: {}", ran.err);
+        let json: Json = serde_json::from_slice(&ran.out).expect("JSON");
+        assert_eq!(json["ok"], Json::Bool(ok), "{name}");
+        let found: Vec<&str> = json["verdicts"]
+            .as_array()
+            .expect("a list")
+            .iter()
+            .filter_map(|verdict| verdict["rule"].as_str())
+            .collect();
+        assert_eq!(found, rules, "{name}");
+        let text = room.run(&["check", name, "--profile", "mine.toml"]);
+        assert_eq!(text.code, ran.code, "{name}");
+        assert_eq!(text.out().contains("fault: "), !ok, "{}", text.out());
+        assert!(text.out().ends_with(if ok { "\nok\n" } else { "not ok\n" }), "{}", text.out());
+    }
+    // Without a profile nobody knows the bed, and a heater is only doubtful.
+    assert!(room.run(&["check", "outside.gcode"]).done().out().contains("warning: line 1: a heater is set"));
 }
 
 #[test]

@@ -401,7 +401,7 @@ fn a_file_says_nothing_of_the_day_and_heats_nothing() {
 fn every_file_passes_the_clay_processor() {
     for print in prints() {
         let report = clayforge::clay_processor::process(print.run.gcode());
-        assert!(report.ok, "{}: {:?}", print.name(), report.notes);
+        assert!(report.ok(), "{}: {:?}", print.name(), report.verdicts);
         let layers = print.run.sliced.figures.expect("figures").layers;
         assert_eq!(report.machine.layers.len(), layers, "{}", print.name());
     }

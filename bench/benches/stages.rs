@@ -1,9 +1,10 @@
 //! The costly steps of a slice one by one, and the whole. `cargo bench -p bench` runs all, `cargo bench -p bench fill`
 //! some, `cargo bench -p bench -- --test` each of them once.
 
-use bench::vase;
+use bench::{print, vase};
 use carve::Carve;
 use clayforge::Profile;
+use clayforge::clay_processor::{Options, Processor};
 use divan::counter::{BytesCount, ItemsCount};
 use divan::{Bencher, black_box};
 use fill::Fill;
@@ -106,5 +107,19 @@ fn whole_slice(bencher: Bencher, triangles: usize) {
         clayforge::slice(black_box(&bytes), &profile, None, &mut |_| Ok(()), &mut sink)
             .expect("a part that fits");
         length
+    });
+}
+
+/// A finished file to its verdicts, held against a printer: two million lines, planar and as a spiral; items are lines.
+#[divan::bench(args = [false, true], sample_count = 10, sample_size = 1)]
+fn check(bencher: Bencher, spiral: bool) {
+    let text = print(2_000_000, spiral);
+    let limits = Profile::default().limits();
+    bencher.counter(ItemsCount::new(2_000_000_usize)).bench(|| {
+        let mut processor = Processor::new(Options { limits, ..Options::default() });
+        for piece in black_box(&text).chunks(256 * 1024) {
+            processor.push(piece);
+        }
+        processor.finish().verdicts
     });
 }

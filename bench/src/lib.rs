@@ -1,6 +1,7 @@
-//! A part of any fineness for the benchmarks in `benches/`: the same bytes on every machine.
+//! Parts and prints of any fineness for the benchmarks in `benches/`: the same bytes on every machine.
 
 use std::f64::consts::TAU;
+use std::fmt::Write;
 
 /// The bytes of a binary STL: a solid vase of five lobes, twisted, with a waist, 100 mm high, of about so many
 /// triangles.
@@ -43,4 +44,28 @@ pub fn vase(triangles: usize) -> Vec<u8> {
         bytes.extend_from_slice(&[0; 2]);
     }
     bytes
+}
+
+/// The G-code of a lobed pot of so many lines, as layers with a break between them or as one spiral.
+pub fn print(lines: usize, spiral: bool) -> Vec<u8> {
+    /// Lines around the pot.
+    const AROUND: usize = 2000;
+    const HEIGHT: f64 = 0.5;
+    let mut text = String::from("M83\nM302 P1\nG28\nG1 Z0.5 F1800\n");
+    // Writing to a string cannot fail.
+    for line in 0..lines {
+        let angle = TAU * (line % AROUND) as f64 / AROUND as f64;
+        let radius = 40.0 + 3.0 * libm::cos(7.0 * angle);
+        let (x, y) = (100.0 + radius * libm::cos(angle), 100.0 + radius * libm::sin(angle));
+        let _ = if spiral {
+            let z = HEIGHT * (1.0 + line as f64 / AROUND as f64);
+            writeln!(text, "G1 X{x:.3} Y{y:.3} Z{z:.4} E0.08")
+        } else if line % AROUND == 0 {
+            let z = HEIGHT * (1 + line / AROUND) as f64;
+            writeln!(text, "G0 F6000 X{x:.3} Y{y:.3} Z{z:.3}\nG1 F1800")
+        } else {
+            writeln!(text, "G1 X{x:.3} Y{y:.3} E0.08000")
+        };
+    }
+    text.into_bytes()
 }

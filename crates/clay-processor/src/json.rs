@@ -1,94 +1,164 @@
 //! Writes a report for scripts.
 
-use std::fmt::Write;
+use std::fmt::{self, Display, Formatter, Write};
 
-use crate::report::{Model, Report, Run};
+use crate::report::{Interruptions, Model, Report, Run};
+use crate::verdict::{Severity, Verdict};
 
-/// The report as `clayforge check --json` prints it: one object with `letter`, `machine`, `notes` and `ok`, without a
-/// line end. What is unknown is `null`.
+/// The report as `clayforge check --json` prints it: one object with `letter`, `machine`, `notes`, `interruptions`,
+/// `verdicts` and `ok`, without a line end. What is unknown is `null`.
 ///
 /// ```
 /// let json = clay_processor::to_json(&clay_processor::process(b"; a cup\nG1 Z1.50\n"));
 /// assert!(json.contains(r#""vertical_movement_without_extrusion": [{"index": 1, "from": null, "to": 1.5}]"#));
 /// ```
 pub fn to_json(report: &Report) -> String {
-    let letter = model(&report.letter);
-    let machine = model(&report.machine);
-    let notes = list(report.notes.iter().map(|note| quoted(&note.text)));
-    format!(r#"{{"letter": {letter}, "machine": {machine}, "notes": {notes}, "ok": {}}}"#, report.ok)
+    json(report).to_string()
 }
 
-fn model(model: &Model) -> String {
-    let horizontal = model
-        .horizontal_movement_without_extrusion
-        .iter()
-        .map(|travel| format!(r#"{{"index": {}, "height": {}}}"#, travel.index, number(travel.height)));
-    let vertical = model.vertical_movement_without_extrusion.iter().map(|lift| {
-        format!(r#"{{"index": {}, "from": {}, "to": {}}}"#, lift.index, number(lift.from), number(lift.to))
-    });
-    let diagonal = model
-        .diagonal_movement_without_extrusion
-        .iter()
-        .map(|travel| format!(r#"{{"index": {}}}"#, travel.index));
-    let members = [
-        ("first_part_comments_end", index(model.first_part_comments_end)),
-        ("last_part_comments_start", index(model.last_part_comments_start)),
-        ("max_height", number(Some(model.max_height))),
-        ("layers", list(model.layers.iter().map(run))),
-        ("spirals", list(model.spirals.iter().map(run))),
-        ("horizontal_movement_without_extrusion", list(horizontal)),
-        ("vertical_movement_without_extrusion", list(vertical)),
-        ("diagonal_movement_without_extrusion", list(diagonal)),
-    ];
-    let members: Vec<String> = members.iter().map(|(name, value)| format!(r#""{name}": {value}"#)).collect();
-    format!("{{{}}}", members.join(", "))
-}
-
-fn run(run: &Run) -> String {
-    let height = number(run.height);
-    format!(r#"{{"start_index": {}, "end_index": {}, "height": {height}}}"#, run.start_index, run.end_index)
-}
-
-fn list(items: impl Iterator<Item = String>) -> String {
-    let mut text = String::from("[");
-    for (index, item) in items.enumerate() {
-        if index > 0 {
-            text.push_str(", ");
+/// What [`to_json`] makes, piece by piece: the text of a large file's report is larger than the report.
+pub fn json(report: &Report) -> impl Display + '_ {
+    struct Json<'a>(&'a Report);
+    impl Display for Json<'_> {
+        fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+            let report = self.0;
+            out.write_str(r#"{"letter": "#)?;
+            model(out, &report.letter)?;
+            out.write_str(r#", "machine": "#)?;
+            model(out, &report.machine)?;
+            out.write_str(r#", "notes": "#)?;
+            list(out, &report.notes, |out, note| quoted(out, &note.text))?;
+            out.write_str(r#", "interruptions": "#)?;
+            interruptions(out, &report.interruptions)?;
+            out.write_str(r#", "verdicts": "#)?;
+            list(out, &report.verdicts, verdict)?;
+            write!(out, r#", "ok": {}}}"#, report.ok())
         }
-        text.push_str(&item);
     }
-    text.push(']');
-    text
+    Json(report)
 }
 
-fn index(index: Option<usize>) -> String {
-    index.map_or_else(|| String::from("null"), |index| index.to_string())
+fn model(out: &mut Formatter<'_>, model: &Model) -> fmt::Result {
+    write!(
+        out,
+        r#"{{"first_part_comments_end": {}, "last_part_comments_start": {}, "max_height": {}, "layers": "#,
+        Index(model.first_part_comments_end),
+        Index(model.last_part_comments_start),
+        Number(Some(model.max_height)),
+    )?;
+    list(out, &model.layers, run)?;
+    out.write_str(r#", "spirals": "#)?;
+    list(out, &model.spirals, run)?;
+    out.write_str(r#", "horizontal_movement_without_extrusion": "#)?;
+    list(out, &model.horizontal_movement_without_extrusion, |out, travel| {
+        write!(out, r#"{{"index": {}, "height": {}}}"#, travel.index, Number(travel.height))
+    })?;
+    out.write_str(r#", "vertical_movement_without_extrusion": "#)?;
+    list(out, &model.vertical_movement_without_extrusion, |out, lift| {
+        let (from, to) = (Number(lift.from), Number(lift.to));
+        write!(out, r#"{{"index": {}, "from": {from}, "to": {to}}}"#, lift.index)
+    })?;
+    out.write_str(r#", "diagonal_movement_without_extrusion": "#)?;
+    list(out, &model.diagonal_movement_without_extrusion, |out, travel| {
+        write!(out, r#"{{"index": {}}}"#, travel.index)
+    })?;
+    out.write_char('}')
 }
 
-/// The shortest text of a length. Sums of relative moves end in digits of rounding, far below what a printer knows;
-/// they are dropped.
-fn number(value: Option<f64>) -> String {
-    const FINEST: f64 = 1e9;
-    const LARGEST: f64 = 1e6;
-    let Some(value) = value.filter(|value| value.is_finite()) else { return String::from("null") };
-    let value = if value.abs() < LARGEST { (value * FINEST).round() / FINEST } else { value };
-    // A zero has no sign here.
-    if value == 0.0 { String::from("0") } else { value.to_string() }
+fn run(out: &mut Formatter<'_>, run: &Run) -> fmt::Result {
+    let height = Number(run.height);
+    write!(
+        out,
+        r#"{{"start_index": {}, "end_index": {}, "height": {height}}}"#,
+        run.start_index, run.end_index
+    )
 }
 
-fn quoted(text: &str) -> String {
-    let mut quoted = String::with_capacity(text.len() + 2);
-    quoted.push('"');
+fn interruptions(out: &mut Formatter<'_>, breaks: &Interruptions) -> fmt::Result {
+    write!(
+        out,
+        r#"{{"count": {}, "length": {}, "longest": {}, "longest_index": {}, "open_air": "#,
+        breaks.count,
+        Number(Some(breaks.length)),
+        Number(Some(breaks.longest)),
+        Index(breaks.longest_index),
+    )?;
+    list(out, &breaks.open_air, |out, crossing| {
+        let length = Number(Some(crossing.length));
+        write!(out, r#"{{"index": {}, "length": {length}}}"#, crossing.index)
+    })?;
+    out.write_char('}')
+}
+
+fn verdict(out: &mut Formatter<'_>, verdict: &Verdict) -> fmt::Result {
+    let severity = match verdict.severity {
+        Severity::Forbids => "forbids",
+        Severity::Warns => "warns",
+    };
+    let place = verdict.place;
+    write!(
+        out,
+        r#"{{"rule": "{}", "severity": "{severity}", "index": {}, "layer": {}, "height": {}, "count": {}, "text": "#,
+        verdict.rule.name(),
+        Index(place.map(|place| place.index)),
+        Index(place.and_then(|place| place.layer)),
+        Number(place.and_then(|place| place.height)),
+        verdict.count,
+    )?;
+    quoted(out, &verdict.text)?;
+    out.write_char('}')
+}
+
+fn list<T>(
+    out: &mut Formatter<'_>,
+    items: &[T],
+    each: impl Fn(&mut Formatter<'_>, &T) -> fmt::Result,
+) -> fmt::Result {
+    out.write_char('[')?;
+    for (index, item) in items.iter().enumerate() {
+        if index > 0 {
+            out.write_str(", ")?;
+        }
+        each(out, item)?;
+    }
+    out.write_char(']')
+}
+
+/// A line, or null.
+struct Index(Option<usize>);
+
+impl Display for Index {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        match self.0 {
+            Some(index) => write!(out, "{index}"),
+            None => out.write_str("null"),
+        }
+    }
+}
+
+/// The shortest text of a length, or null. Sums of relative moves end in digits of rounding, far below what a printer
+/// knows; they are dropped.
+struct Number(Option<f64>);
+
+impl Display for Number {
+    fn fmt(&self, out: &mut Formatter<'_>) -> fmt::Result {
+        const FINEST: f64 = 1e9;
+        const LARGEST: f64 = 1e6;
+        let Some(value) = self.0.filter(|value| value.is_finite()) else { return out.write_str("null") };
+        let value = if value.abs() < LARGEST { (value * FINEST).round() / FINEST } else { value };
+        // A minus before a zero means nothing.
+        write!(out, "{}", value + 0.0)
+    }
+}
+
+fn quoted(out: &mut Formatter<'_>, text: &str) -> fmt::Result {
+    out.write_char('"')?;
     for letter in text.chars() {
         match letter {
-            '"' | '\\' => quoted.extend(['\\', letter]),
-            control if control < ' ' => {
-                // Writing to a string cannot fail.
-                let _ = write!(quoted, "\\u{:04x}", u32::from(control));
-            }
-            letter => quoted.push(letter),
+            '"' | '\\' => write!(out, "\\{letter}")?,
+            control if control < ' ' => write!(out, "\\u{:04x}", u32::from(control))?,
+            letter => out.write_char(letter)?,
         }
     }
-    quoted.push('"');
-    quoted
+    out.write_char('"')
 }

@@ -1,4 +1,5 @@
-//! What a file of clay G-code is made of: comment blocks, layers, spirals, and movements without extrusion.
+//! What a file of clay G-code is made of: comment blocks, layers, spirals, and movements without extrusion; and whether
+//! it may be printed.
 //!
 //! A potter's tools that change finished G-code (slow down with height, swap the base, scale) need to know which lines
 //! are a layer and which a spiral. Two models answer, side by side, over one reading of the file:
@@ -21,12 +22,28 @@
 //! assert!(report.notes[0].text.contains("G0"));
 //! ```
 //!
+//! On the machine model rest the [`Verdict`]s: what must not be printed (below the bed, beside it, through clay that
+//! stands, behind the end), and what a potter should know before it is (breaks, gaps, a pump that is asked for too
+//! much, commands that firmware for plastic refuses while it is cold). What only somebody who knows the printer can say
+//! is in [`Limits`].
+//!
+//! ```
+//! use clay_processor::{Rule, Severity, process};
+//!
+//! let report = process(b"M83\nG1 X0 Y0 Z-1 F900\nG1 X10 E1\n");
+//! assert_eq!(report.verdicts[0].rule, Rule::BelowBed);
+//! assert_eq!(report.verdicts[0].severity, Severity::Forbids);
+//! assert!(!report.ok());
+//! ```
+//!
 //! Indices are lines counted from 0, as in the tool; sentences count from 1, as editors do. How a line is spelled is
-//! the business of [`gcode`]; time, flow and collisions are the emulator's.
+//! the business of [`gcode`]; time and acceleration are the emulator's.
 
 mod arc;
+mod breaks;
 mod comments;
 mod habits;
+mod helix;
 mod json;
 mod layers;
 mod letter;
@@ -35,7 +52,11 @@ mod motion;
 mod processor;
 mod report;
 mod spirals;
+mod verdict;
 
-pub use json::to_json;
+pub use json::{json, to_json};
 pub use processor::{Options, Processor, process};
-pub use report::{Diagonal, DialectNote, Habit, Horizontal, Interruptions, Model, Report, Run, Vertical};
+pub use report::{
+    Crossing, Diagonal, DialectNote, Habit, Horizontal, Interruptions, Model, Pitch, Report, Run, Vertical,
+};
+pub use verdict::{Bed, Firmware, LayerHeights, Limits, Place, Rule, Severity, Verdict};

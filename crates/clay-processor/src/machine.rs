@@ -4,8 +4,9 @@ use gcode::{Line, Words};
 
 use crate::habits::Count;
 use crate::motion::{Action, Class, Motion, Move};
-use crate::report::{Diagonal, Horizontal, Interruptions, Model, Vertical};
+use crate::report::{Diagonal, Horizontal, Model, Vertical};
 use crate::spirals::Spirals;
+use crate::verdict::Judge;
 
 /// Follows the printer through a file.
 #[derive(Clone, Debug)]
@@ -13,56 +14,54 @@ pub(crate) struct Machine {
     pub(crate) model: Model,
     pub(crate) motion: Motion,
     pub(crate) spirals: Spirals,
-    pub(crate) interruptions: Interruptions,
+    pub(crate) judge: Judge,
     pub(crate) extruding_lines: usize,
     /// Layers that the nozzle left upward and came back to; for the notes.
     pub(crate) hops: Count,
     max_printed: Option<f64>,
     lifted: bool,
-    /// The way since the last printing, if there was any way.
-    gap: Option<f64>,
 }
 
 impl Machine {
-    pub(crate) fn new(motion: Motion) -> Self {
+    pub(crate) fn new(motion: Motion, judge: Judge) -> Self {
         Self {
             model: Model::default(),
             motion,
             spirals: Spirals::default(),
-            interruptions: Interruptions::default(),
+            judge,
             extruding_lines: 0,
             hops: Count::default(),
             max_printed: None,
             lifted: false,
-            gap: None,
         }
     }
 
     /// Takes the line at `index`. Returns what kind of move it is.
     #[inline]
     pub(crate) fn feed(&mut self, index: usize, line: &Line) -> Option<Class> {
-        match self.motion.obey(line) {
-            Action::Nothing => None,
-            Action::Move(step) => {
-                self.take(index, &step);
-                Some(step.class)
-            }
-            Action::Home => {
-                self.spirals.interrupt();
-                None
-            }
-            Action::Reset => {
-                self.spirals.reset(index);
-                None
-            }
+        let action = self.motion.obey(line);
+        if let Action::Move(step) = action {
+            self.take(index, &step, &line.words);
+            return Some(step.class);
         }
+        match action {
+            Action::Home => self.spirals.interrupt(),
+            Action::Reset { height: false } => self.spirals.reset(index),
+            Action::Reset { height: true } => {
+                self.spirals.rename();
+                self.judge.rename();
+            }
+            _ => {}
+        }
+        self.judge.command(index, line, &self.motion);
+        None
     }
 
     /// Does as [`feed`](Self::feed) with a straight move.
     #[inline(always)]
     pub(crate) fn feed_straight(&mut self, index: usize, words: &Words) -> Class {
         let step = self.motion.go_straight(words);
-        self.take(index, &step);
+        self.take(index, &step, words);
         step.class
     }
 
@@ -74,11 +73,12 @@ impl Machine {
     }
 
     #[inline(always)]
-    fn take(&mut self, index: usize, step: &Move) {
+    fn take(&mut self, index: usize, step: &Move, words: &Words) {
+        self.judge.take(index, step, &self.motion, words);
         match step.class {
             Class::Flat => {
                 self.print(step);
-                let goes_on = self.spirals.flat(index, step.to, || step.flat_length());
+                let goes_on = self.spirals.flat(index, step);
                 if goes_on && self.lifted {
                     self.hops.add(index);
                 }
@@ -86,21 +86,21 @@ impl Machine {
             }
             Class::Slope => {
                 self.print(step);
-                self.spirals.slope(index, step.to, step.rise);
+                self.spirals.slope(index, step);
                 self.lifted = false;
             }
             Class::Travel => {
-                self.go(step);
+                self.spirals.interrupt();
                 let travel = Horizontal { index, height: step.to };
                 self.model.horizontal_movement_without_extrusion.push(travel);
             }
             Class::DiagonalTravel => {
-                self.go(step);
+                self.spirals.interrupt();
                 self.lifted = true;
                 self.model.diagonal_movement_without_extrusion.push(Diagonal { index });
             }
             Class::Vertical => {
-                self.go(step);
+                self.spirals.interrupt();
                 self.lifted = true;
                 let lift = Vertical { index, from: step.from, to: step.to };
                 self.model.vertical_movement_without_extrusion.push(lift);
@@ -117,25 +117,6 @@ impl Machine {
             && self.max_printed.is_none_or(|highest| height > highest)
         {
             self.max_printed = Some(height);
-        }
-        if let Some(gap) = self.gap {
-            self.close_gap(gap);
-        }
-    }
-
-    #[cold]
-    fn close_gap(&mut self, gap: f64) {
-        self.gap = None;
-        self.interruptions.count += 1;
-        self.interruptions.length += gap;
-        self.interruptions.longest = self.interruptions.longest.max(gap);
-    }
-
-    #[inline(never)]
-    fn go(&mut self, step: &Move) {
-        self.spirals.interrupt();
-        if self.extruding_lines > 0 {
-            *self.gap.get_or_insert(0.0) += step.length();
         }
     }
 }

@@ -2,10 +2,10 @@
 
 use gcode::{Command, Line, Words};
 
-use crate::arc::arc_length;
+use crate::arc::Arc;
 
 /// Below this a length is rounding of the sums, mm.
-const EPSILON: f64 = 1e-6;
+pub(crate) const EPSILON: f64 = 1e-6;
 /// Half of the last decimal that slicers write: below this Z stays, mm.
 pub(crate) const EPSILON_Z: f64 = 0.0005;
 const MM_PER_INCH: f64 = 25.4;
@@ -20,7 +20,10 @@ pub(crate) enum Action {
     /// The printer seeks its end stops.
     Home,
     /// Coordinates are set without a move.
-    Reset,
+    Reset {
+        /// The height is called otherwise from now on.
+        height: bool,
+    },
 }
 
 /// One move.
@@ -30,8 +33,16 @@ pub(crate) struct Move {
     /// The way in XY as far as it is known, squared, mm²: most moves are never asked for their length, and a root is
     /// slow.
     flat_squared: f64,
+    /// The change of X and Y as far as it is known, mm.
+    pub(crate) by: (f64, f64),
+    /// How it goes round, if it does.
+    pub(crate) arc: Option<Arc>,
+    /// What E pushes, in its unit; negative if it draws.
+    pub(crate) clay: f64,
     /// The change of Z as far as it is known, mm.
     pub(crate) rise: f64,
+    /// What the change of Z adds up to since it last counted, mm; 0 while Z stays.
+    pub(crate) climb: f64,
     /// Z before; nothing if unknown.
     pub(crate) from: Option<f64>,
     /// Z after; nothing if unknown.
@@ -39,6 +50,14 @@ pub(crate) struct Move {
 }
 
 impl Move {
+    /// A move for the tests of those who take moves.
+    #[cfg(test)]
+    pub(crate) fn made_up(x: f64, rise: f64, to: Option<f64>) -> Self {
+        let class = if rise == 0.0 { Class::Flat } else { Class::Slope };
+        let from = to.map(|to| to - rise);
+        Self { class, flat_squared: x * x, by: (x, 0.0), arc: None, clay: 1.0, rise, climb: rise, from, to }
+    }
+
     /// The way in XY as far as it is known, mm.
     pub(crate) fn flat_length(&self) -> f64 {
         self.flat_squared.sqrt()
@@ -46,7 +65,17 @@ impl Move {
 
     /// The way in XYZ as far as it is known, mm.
     pub(crate) fn length(&self) -> f64 {
-        (self.flat_squared + self.rise * self.rise).sqrt()
+        self.squared().sqrt()
+    }
+
+    /// The way in XYZ as far as it is known, squared, mm².
+    pub(crate) fn squared(&self) -> f64 {
+        self.flat_squared + self.rise * self.rise
+    }
+
+    /// Where it heads at its start, in XY; of any length.
+    pub(crate) fn heading(&self) -> (f64, f64) {
+        self.arc.as_ref().map_or(self.by, Arc::heading)
     }
 }
 
@@ -75,6 +104,8 @@ pub(crate) struct Motion {
     x: Axis,
     y: Axis,
     z: Axis,
+    /// Z when it last changed by enough to count: a fine spiral rises by less in a line.
+    level: f64,
     e: f64,
     scale: f64,
     relative: bool,
@@ -86,6 +117,8 @@ pub(crate) struct Motion {
 struct Axis {
     at: f64,
     known: bool,
+    /// How far the end stop's zero lies below the one that `G92` has set.
+    shift: f64,
 }
 
 /// How an axis moved.
@@ -104,6 +137,7 @@ impl Motion {
             x: unknown,
             y: unknown,
             z: unknown,
+            level: 0.0,
             e: 0.0,
             scale: 1.0,
             relative: false,
@@ -149,13 +183,16 @@ impl Motion {
                 }
             }
             G92 => {
+                let before = self.height();
+                let drift = self.z.at - self.level;
                 for (letter, axis) in [(b'X', &mut self.x), (b'Y', &mut self.y), (b'Z', &mut self.z)] {
                     if let Some(value) = words.get(letter) {
-                        *axis = Axis { at: value * self.scale, known: true };
+                        axis.set(value * self.scale);
                     }
                 }
                 self.e = words.get(b'E').map_or(self.e, |value| value * self.scale);
-                return Action::Reset;
+                self.level = self.z.at - drift;
+                return Action::Reset { height: self.height() != before };
             }
             M82 => self.relative_e = false,
             M83 => self.relative_e = true,
@@ -170,7 +207,7 @@ impl Motion {
         let all = !b"XYZ".iter().any(|&letter| named(letter));
         for (letter, axis) in [(b'X', &mut self.x), (b'Y', &mut self.y), (b'Z', &mut self.z)] {
             if all || named(letter) {
-                axis.known = false;
+                *axis = Axis { at: axis.at, ..Axis::default() };
             }
         }
     }
@@ -178,18 +215,21 @@ impl Motion {
     /// Moves as `G0` and `G1` do.
     #[inline(always)]
     pub(crate) fn go_straight(&mut self, words: &Words) -> Move {
-        self.go(words, |x, y| x * x + y * y)
+        self.go(words, |x, y| (x * x + y * y, None))
     }
 
     #[inline(never)]
     fn go_round(&mut self, words: &Words, turn: Turn) -> Move {
         let scale = self.scale;
-        self.go(words, |x, y| arc_length((x, y), words, scale, turn).powi(2))
+        self.go(words, |x, y| match Arc::of((x, y), words, scale, turn) {
+            Some(arc) => (arc.length * arc.length, Some(arc)),
+            None => (x * x + y * y, None),
+        })
     }
 
-    /// Moves by a way that is as long, squared, as `flat_squared` says of the steps in X and Y.
+    /// Moves by a way that is as long, squared, and as round as `way` says of the steps in X and Y.
     #[inline(always)]
-    fn go(&mut self, words: &Words, flat_squared: impl FnOnce(f64, f64) -> f64) -> Move {
+    fn go(&mut self, words: &Words, way: impl FnOnce(f64, f64) -> (f64, Option<Arc>)) -> Move {
         let (scale, relative) = (self.scale, self.relative);
         let from = self.height();
         let x = self.x.step(words.get(b'X'), scale, relative);
@@ -207,9 +247,14 @@ impl Motion {
                 clay
             }
         };
-        let flat_squared = flat_squared(x.by, y.by);
+        let (flat_squared, arc) = way(x.by, y.by);
         let goes = flat_squared > EPSILON * EPSILON || x.becomes_known || y.becomes_known;
-        let climbs = z.by.abs() > EPSILON_Z || z.becomes_known;
+        let drift = self.z.at - self.level;
+        let climbs = drift.abs() > EPSILON_Z || z.becomes_known;
+        let climb = if climbs && !z.becomes_known { drift } else { 0.0 };
+        if climbs {
+            self.level = self.z.at;
+        }
         let class = match (goes, climbs, clay > EPSILON) {
             (true, false, true) => Class::Flat,
             (true, true, true) => Class::Slope,
@@ -220,7 +265,30 @@ impl Motion {
             (false, false, false) if clay < -EPSILON => Class::Prime,
             (false, false, false) => Class::Still,
         };
-        Move { class, flat_squared, rise: z.by, from, to: self.height() }
+        let by = (x.by, y.by);
+        Move { class, flat_squared, by, arc, clay, rise: z.by, climb, from, to: self.height() }
+    }
+
+    /// X and Y from the end stops, whatever `G92` has set; nothing if one of them is unknown.
+    #[inline]
+    pub(crate) fn place(&self) -> Option<(f64, f64)> {
+        (self.x.known && self.y.known).then_some((self.x.at + self.x.shift, self.y.at + self.y.shift))
+    }
+
+    /// Z from the end stop, whatever `G92` has set; nothing if it is unknown.
+    #[inline]
+    pub(crate) fn altitude(&self) -> Option<f64> {
+        self.z.known.then_some(self.z.at + self.z.shift)
+    }
+
+    /// What lengths and E are to be multiplied with: 1, or the millimetres of an inch.
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// E words are what flows, not where E goes.
+    pub(crate) fn is_relative_e(&self) -> bool {
+        self.relative_e
     }
 
     #[inline]
@@ -230,6 +298,12 @@ impl Motion {
 }
 
 impl Axis {
+    /// The same place is called `at` from now on. A place that nobody knew is taken by its new name.
+    fn set(&mut self, at: f64) {
+        let shift = if self.known { self.shift + self.at - at } else { 0.0 };
+        *self = Self { at, known: true, shift };
+    }
+
     #[inline(always)]
     fn step(&mut self, word: Option<f64>, scale: f64, relative: bool) -> Step {
         let Some(value) = word else { return Step::default() };
@@ -239,12 +313,19 @@ impl Axis {
             return Step { by: value, becomes_known: false };
         }
         let before = *self;
-        *self = Self { at: value, known: true };
+        *self = Self { at: value, known: true, ..before };
         if before.known {
             Step { by: value - before.at, becomes_known: false }
         } else {
             Step { by: 0.0, becomes_known: true }
         }
+    }
+}
+
+impl Turn {
+    /// 1 counter-clockwise, −1 clockwise.
+    pub(crate) fn sign(self) -> f64 {
+        if self == Self::Counter { 1.0 } else { -1.0 }
     }
 }
 

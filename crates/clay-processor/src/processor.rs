@@ -8,6 +8,7 @@ use crate::letter::Letter;
 use crate::machine::Machine;
 use crate::motion::{Class, Motion};
 use crate::report::Report;
+use crate::verdict::{Judge, Limits};
 
 /// What is in a whole file.
 pub fn process(text: &[u8]) -> Report {
@@ -17,10 +18,12 @@ pub fn process(text: &[u8]) -> Report {
 }
 
 /// What a file does not say about the printer it is for.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
     /// `G90` and `G91` hold for E too, as in Marlin. Otherwise E obeys `M82` and `M83` alone.
     pub e_follows_g90: bool,
+    /// What the file is held against.
+    pub limits: Limits,
 }
 
 /// Takes a file piece by piece, for instance while it is written. Keeps its results and no text but an unfinished line.
@@ -60,7 +63,10 @@ impl Processor {
             unfinished: Vec::new(),
             comments: Comments::default(),
             letter: Letter::default(),
-            machine: Machine::new(Motion::new(options.e_follows_g90)),
+            machine: Machine::new(
+                Motion::new(options.e_follows_g90),
+                Judge::new(options.limits, options.e_follows_g90),
+            ),
             habits: Habits::default(),
         }
     }
@@ -110,19 +116,17 @@ impl Processor {
             model.first_part_comments_end = head;
             model.last_part_comments_start = tail;
         }
-        let ok = machine
-            .layers
-            .iter()
-            .chain(&machine.spirals)
-            .all(|run| run.height.is_some_and(|height| height > 0.0));
+        let pitches = self.machine.spirals.pitches;
+        let (verdicts, interruptions) = self.machine.judge.finish(&machine, &pitches);
         Report {
             letter,
             machine,
             notes,
             lines: self.index,
             extruding_lines: self.machine.extruding_lines,
-            interruptions: self.machine.interruptions,
-            ok,
+            interruptions,
+            pitches,
+            verdicts,
         }
     }
 
@@ -223,7 +227,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
         fn the_short_way_finds_what_the_long_way_does(text in text(), e_follows_g90: bool) {
-            let mut short = Processor::new(Options { e_follows_g90 });
+            let mut short = Processor::new(Options { e_follows_g90, ..Options::default() });
             let mut long = short.clone();
             short.push(text.as_bytes());
             for line in lines(text.as_bytes()) {

@@ -1,5 +1,7 @@
 //! The results.
 
+use crate::verdict::{Severity, Verdict};
+
 /// What [`process`](crate::process()) found in a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
@@ -15,8 +17,17 @@ pub struct Report {
     pub extruding_lines: usize,
     /// Breaks in the printing, in the machine model.
     pub interruptions: Interruptions,
-    /// Whether everything is printed at a known height above 0. The caller, who knows the printer, may find more.
-    pub ok: bool,
+    /// How the spirals of the machine model climb, in their order.
+    pub pitches: Vec<Pitch>,
+    /// What is wrong with the file, the worst first.
+    pub verdicts: Vec<Verdict>,
+}
+
+impl Report {
+    /// Whether the file may be printed: no verdict forbids it.
+    pub fn ok(&self) -> bool {
+        self.verdicts.iter().all(|verdict| verdict.severity != Severity::Forbids)
+    }
 }
 
 /// One way to see the file. Indices are lines, counted from 0.
@@ -80,7 +91,7 @@ pub struct Diagonal {
 }
 
 /// Groups of movements without extrusion that have printing before and after them.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Interruptions {
     /// How many groups.
     pub count: usize,
@@ -88,6 +99,32 @@ pub struct Interruptions {
     pub length: f64,
     /// The length of the longest group, mm.
     pub longest: f64,
+    /// The first line of the longest group.
+    pub longest_index: Option<usize>,
+    /// The groups that go where no clay stands below, within three layers.
+    pub open_air: Vec<Crossing>,
+}
+
+/// An interruption over open air.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// The first line of the group.
+    pub index: usize,
+    /// How far it goes over open air, mm.
+    pub length: f64,
+}
+
+/// How a spiral climbs.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Pitch {
+    /// How often it goes round.
+    pub turns: f64,
+    /// How much it rises in a whole turn on average, mm; nothing if it makes none.
+    pub rise: Option<f64>,
+    /// How much it rises in the steepest whole turn, mm.
+    pub steepest: Option<f64>,
+    /// Z at its end, mm; nothing if it is unknown.
+    pub top: Option<f64>,
 }
 
 /// A difference between the two models and the habit of the file that causes it.

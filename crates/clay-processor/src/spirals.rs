@@ -4,9 +4,10 @@
 //! those layers are taken back if it is one.
 
 use crate::habits::Count;
+use crate::helix::Helix;
 use crate::layers::{Group, Layers, Mark};
-use crate::motion::EPSILON_Z;
-use crate::report::Run;
+use crate::motion::{EPSILON_Z, Move};
+use crate::report::{Pitch, Run};
 
 /// A spiral may stay at one height for so long, mm: Z is written with two or three decimals, so in a gentle climb some
 /// lines repeat the one before.
@@ -16,6 +17,8 @@ const LONGEST_FLAT: f64 = 2.0;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spirals {
     pub(crate) found: Vec<Run>,
+    /// How each of them climbs.
+    pub(crate) pitches: Vec<Pitch>,
     pub(crate) layers: Layers,
     /// Lines in spirals whose Z stays, and settings of the position; for the notes.
     pub(crate) rounded: Count,
@@ -31,6 +34,9 @@ struct Climb {
     last: usize,
     height: Option<f64>,
     rise: f64,
+    /// Up to the last change of Z, and with the flat lines behind it.
+    helix: Helix,
+    helix_on: Helix,
     slopes: usize,
     rounded: Count,
     resets: Count,
@@ -41,37 +47,39 @@ struct Climb {
 }
 
 impl Spirals {
-    /// A line printed at `height`, with the `length` in XY. Returns whether it goes on with a layer.
+    /// A line printed at one height. Returns whether it goes on with a layer.
     #[inline(always)]
-    pub(crate) fn flat(&mut self, index: usize, height: Option<f64>, length: impl FnOnce() -> f64) -> bool {
-        let goes_on = self.layers.flat(index, height);
+    pub(crate) fn flat(&mut self, index: usize, step: &Move) -> bool {
+        let goes_on = self.layers.flat(index, step.to);
         if self.climb.is_some() {
-            self.flat_in_climb(index, height, length());
+            self.flat_in_climb(index, step);
         }
         goes_on
     }
 
     #[cold]
-    fn flat_in_climb(&mut self, index: usize, height: Option<f64>, length: f64) {
+    fn flat_in_climb(&mut self, index: usize, step: &Move) {
         if let Some(climb) = &mut self.climb {
+            let height = step.to;
             let flats = climb.flats.get_or_insert(Group { height, first: index, last: index, lines: 0 });
             flats.last = index;
             flats.lines += 1;
-            climb.flat_length += length;
+            climb.flat_length += step.flat_length();
+            climb.helix_on.go_on(step);
             if climb.flat_length > LONGEST_FLAT {
                 self.interrupt();
             }
         }
     }
 
-    /// A line printed up or down by `rise` to `height`.
+    /// A line printed up or down.
     #[inline]
-    pub(crate) fn slope(&mut self, index: usize, height: Option<f64>, rise: f64) {
+    pub(crate) fn slope(&mut self, index: usize, step: &Move) {
         match &mut self.climb {
-            Some(climb) => climb.go_on(index, rise),
-            None => self.climb = Some(Climb::new(self.layers.mark(), index, height, rise)),
+            Some(climb) => climb.go_on(index, step),
+            None => self.climb = Some(Climb::new(self.layers.mark(), index, step)),
         }
-        self.layers.slope(index, height);
+        self.layers.slope(index, step.to);
     }
 
     /// The position is set anew.
@@ -79,6 +87,12 @@ impl Spirals {
         if let Some(climb) = &mut self.climb {
             climb.flat_resets.add(index);
         }
+    }
+
+    /// The height is called otherwise from now on: what comes at the same number is another layer.
+    pub(crate) fn rename(&mut self) {
+        self.interrupt();
+        self.layers.end();
     }
 
     /// The printing stops, or has become flat: a climb ends.
@@ -108,6 +122,7 @@ impl Spirals {
         }
         self.rounded.add_all(&climb.rounded);
         self.resets.add_all(&climb.resets);
+        self.pitches.push(climb.helix.pitch());
         self.found.push(Run { start_index: climb.first, end_index: climb.last, height: climb.height });
     }
 
@@ -118,13 +133,17 @@ impl Spirals {
 }
 
 impl Climb {
-    fn new(before: Mark, index: usize, height: Option<f64>, rise: f64) -> Self {
+    fn new(before: Mark, index: usize, step: &Move) -> Self {
+        let mut helix = Helix::default();
+        helix.go_on(step);
         Self {
             before,
             first: index,
             last: index,
-            height,
-            rise,
+            height: step.to,
+            rise: step.climb,
+            helix,
+            helix_on: helix,
             slopes: 1,
             rounded: Count::default(),
             resets: Count::default(),
@@ -135,9 +154,11 @@ impl Climb {
     }
 
     #[inline]
-    fn go_on(&mut self, index: usize, rise: f64) {
+    fn go_on(&mut self, index: usize, step: &Move) {
         self.last = index;
-        self.rise += rise;
+        self.rise += step.climb;
+        self.helix_on.go_on(step);
+        self.helix = self.helix_on;
         self.slopes += 1;
         if let Some(flats) = self.flats.take() {
             self.rounded.add_all(&Count { count: flats.lines, first: flats.first });
@@ -231,9 +252,9 @@ mod tests {
                 let at = Some(f64::from(height));
                 match *event {
                     Event::Flat(length) => {
-                        spirals.flat(index, at, || f64::from(length) / 2.0);
+                        spirals.flat(index, &Move::made_up(f64::from(length) / 2.0, 0.0, at));
                     }
-                    Event::Slope(rise) => spirals.slope(index, at, f64::from(rise)),
+                    Event::Slope(rise) => spirals.slope(index, &Move::made_up(1.0, f64::from(rise), at)),
                     Event::Travel => spirals.interrupt(),
                 }
             }

@@ -1,6 +1,6 @@
 //! Laws that hold for every file.
 
-use clay_processor::{Options, Processor, process, to_json};
+use clay_processor::{Bed, Firmware, LayerHeights, Limits, Options, Processor, process, to_json};
 use gcode::lines;
 use proptest::prelude::*;
 
@@ -13,7 +13,7 @@ fn text() -> impl Strategy<Value = Vec<u8>> {
     ];
     let command = prop::sample::select(vec![
         "G1", "G1", "G1", "g1", "G0", "G2", "G3", "G28", "G92", "G91", "G90", "M82", "M83", "G20", "G21", "",
-        "N5 G1", "M106",
+        "N5 G1", "M106", "M84", "M302", "M104", "M2",
     ]);
     let line = (command, prop::collection::vec(word, 0..5)).prop_map(|(command, words)| {
         let mut line = String::from(command);
@@ -27,7 +27,36 @@ fn text() -> impl Strategy<Value = Vec<u8>> {
     prop::collection::vec(any_line, 0..60).prop_map(|lines| lines.join(&b'\n'))
 }
 
+/// A printer so small that most lines break a rule.
+const TINY: Limits = Limits {
+    bed: Some(Bed { least: (0.0, 0.0), greatest: (2.0, 2.0), round: true, height: 2.0 }),
+    layers: Some(LayerHeights { first: 1.0, rest: 0.5 }),
+    bead_width: Some(0.5),
+    e_per_mm3: Some(1.0),
+    max_e_speed: Some(1.0),
+    max_flow: Some(0.5),
+    heated: Some(false),
+    firmware: Some(Firmware::Marlin),
+    longest_e: Some(1.0),
+};
+
 proptest! {
+    #[test]
+    fn any_file_is_judged(text in text()) {
+        let mut processor = Processor::new(Options { limits: TINY, ..Options::default() });
+        processor.push(&text);
+        let report = processor.finish();
+        let lines = report.lines;
+        for verdict in &report.verdicts {
+            prop_assert!(verdict.place.is_none_or(|place| place.index < lines), "{:?}", verdict);
+            prop_assert!(verdict.count >= 1 && verdict.count <= lines.max(1), "{:?}", verdict);
+            prop_assert!(!verdict.text.contains("NaN") && !verdict.text.contains("inf "), "{:?}", verdict);
+        }
+        let sorted = report.verdicts.is_sorted_by_key(|verdict| (verdict.severity, verdict.rule));
+        prop_assert!(sorted, "{:?}", report.verdicts);
+        prop_assert_eq!(report.pitches.len(), report.machine.spirals.len());
+    }
+
     #[test]
     fn any_file_has_a_report(text in text()) {
         let report = process(&text);

@@ -1,6 +1,6 @@
 //! The snippets of the specification, with the results that it gives for both models.
 
-use clay_processor::{Model, Report, Run, process, to_json};
+use clay_processor::{Model, Report, Rule, Run, process, to_json};
 use serde_json::{Value, json};
 
 #[test]
@@ -60,7 +60,23 @@ fn the_json_of_a_report_has_the_agreed_shape() {
     });
     let mut machine = model.clone();
     machine["max_height"] = json!(1.5);
-    assert_eq!(found, json!({"letter": model, "machine": machine, "notes": [], "ok": true}));
+    let object = found.as_object().expect("an object");
+    assert_eq!(
+        object.keys().collect::<Vec<_>>(),
+        ["interruptions", "letter", "machine", "notes", "ok", "verdicts"]
+    );
+    let parts = ["letter", "machine", "notes", "ok"].map(|key| found[key].clone());
+    assert_eq!(parts, [model, machine, json!([]), json!(true)]);
+    let breaks = json!({"count": 0, "length": 0, "longest": 0, "longest_index": null, "open_air": []});
+    assert_eq!(found["interruptions"], breaks);
+    let verdict = &found["verdicts"][0];
+    assert_eq!(verdict["rule"], json!("cold_extrusion"), "{found:#}");
+    assert_eq!(verdict["severity"], json!("warns"));
+    let place = ["index", "layer", "height", "count"].map(|key| verdict[key].clone());
+    assert_eq!(place, [json!(3), json!(0), json!(1.5), json!(1)]);
+    assert!(
+        verdict["text"].as_str().is_some_and(|text| text.starts_with("line 4 (layer 1, z 1.5): E moves"))
+    );
 }
 
 #[test]
@@ -71,9 +87,11 @@ fn the_json_of_a_long_sum_is_short() {
 }
 
 #[test]
-fn an_empty_file_is_fine() {
+fn an_empty_file_prints_nothing() {
     for text in ["", "\u{feff}"] {
-        assert_eq!(process(text.as_bytes()), Report { ok: true, ..Report::default() });
+        let report = process(text.as_bytes());
+        assert_eq!(report.verdicts[0].rule, Rule::NothingPrinted);
+        assert_eq!(Report { verdicts: Vec::new(), ..report }, Report::default());
     }
     assert_eq!(process(b"\n\n").lines, 2);
     assert_eq!(process(b"\n\n").letter.first_part_comments_end, None);

@@ -21,6 +21,7 @@ mod document;
 mod draw;
 mod explain;
 mod figures;
+mod limits;
 mod pipeline;
 mod profile;
 mod stages;

@@ -5,7 +5,7 @@ use crate::figures::Figures;
 use crate::profile::{Profile, Station};
 use crate::work::{Bench, Sink};
 use crate::{Document, Form};
-use clay_processor::{Options, Processor, Report};
+use clay_processor::{Firmware, Limits, Options, Processor, Report, Rule, Severity, Verdict};
 use skein::{Error, Notes, Place, Signature, Skein, Slices, Value};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
@@ -181,10 +181,11 @@ fn finish(
             .said_by(station.entry.name));
     }
     let sink = &mut *bench.sink;
+    let limits = own_limits(profile);
     let report = std::thread::scope(|scope| {
         let (send, receive) = sync_channel(Tee::AHEAD);
         let (give_back, empty) = sync_channel(Tee::AHEAD + 2);
-        let reader = scope.spawn(move || process(&receive, &give_back));
+        let reader = scope.spawn(move || process(limits, &receive, &give_back));
         let mut tee = Tee { send: Some(send), empty, chunk: Vec::new() };
         let mut both = |piece: &[u8]| {
             tee.push(piece);
@@ -203,9 +204,36 @@ fn finish(
             "{} layers have beads, and a reader that goes by the letter finds {} in the file",
             counted.layers, found.layers
         ));
-        bench.notes.said_by("check");
     }
+    judge(&report.verdicts, bench.notes)?;
+    bench.notes.said_by("check");
     Ok((counted, found))
+}
+
+/// What a file of our own is held against. Stages may make other layers than `carve.layer_height` says; a firmware that
+/// nobody has named is not suspected.
+fn own_limits(profile: &Profile) -> Limits {
+    let limits = profile.limits();
+    Limits { layers: None, firmware: limits.firmware.or(Some(Firmware::Plain)), ..limits }
+}
+
+/// Passes on what the check warns of, and refuses what must not be printed.
+fn judge(verdicts: &[Verdict], notes: &mut Notes) -> Result<(), Error> {
+    for verdict in verdicts {
+        match verdict.severity {
+            Severity::Forbids => {
+                return Err(Error::new(format!("the finished file must not be printed: {}", verdict.text))
+                    .hint(
+                        "look at alteration.start and alteration.end; if it is not they, please report it as our bug",
+                    )
+                    .said_by("check"));
+            }
+            // The summary counts the travels.
+            Severity::Warns if verdict.rule == Rule::Interrupted => {}
+            Severity::Warns => notes.say(verdict.text.as_str()),
+        }
+    }
+    Ok(())
 }
 
 /// Sends what is written to the reader, in chunks that are worth a message; the reader gives them back empty, since
@@ -250,8 +278,8 @@ impl Tee {
     }
 }
 
-fn process(chunks: &Receiver<Vec<u8>>, give_back: &SyncSender<Vec<u8>>) -> Report {
-    let mut processor = Processor::new(Options::default());
+fn process(limits: Limits, chunks: &Receiver<Vec<u8>>, give_back: &SyncSender<Vec<u8>>) -> Report {
+    let mut processor = Processor::new(Options { limits, ..Options::default() });
     for mut chunk in chunks {
         processor.push(&chunk);
         chunk.clear();

@@ -17,6 +17,7 @@ Examples:
   clayforge profile new > mine.toml                a profile of your own
   clayforge explain fill.walls                     what a setting does
   clayforge check cup.gcode                        layers, spirals and gaps of a finished file
+  clayforge edit cup.gcode -o small.gcode scale --factor 0.5
 
 Exit codes: 0 done, 1 refused or failed, 2 wrong usage."
 )]
@@ -41,6 +42,8 @@ pub enum Command {
     Profile(Profile),
     /// Say what a G-code file is made of, and whether a clay printer can print it
     Check(Check),
+    /// Change finished G-code: scale, speed, nozzle, base, clean, rim, pause
+    Edit(Edit),
 }
 
 /// Where the settings come from.
@@ -177,6 +180,33 @@ pub struct Check {
     /// As JSON, for scripts
     #[arg(long)]
     pub json: bool,
+}
+
+/// `clayforge edit`.
+#[derive(Args)]
+#[command(after_help = "\
+Edits, made in the order in which they stand; `clayforge edit - scale --help` and so on say more:
+  scale   --factor F | --height MM [--axes xyz|z] [--bead]
+  speed   --factor F | --bottom F --top F [--travels]
+  nozzle  --old MM --new MM [--section rectangle|stadium|ellipse] [--spread F] [--layer MM]
+  base    OTHER.gcode [--height MM] [--e-factor F] [--lift MM]
+  clean   [COMMAND,...] [--heaters] [--fans]
+  rim     --turns N [--rise MM] [--flow F]
+  pause   --at MM | --after-base [--lift MM] [--park X,Y] [--prime E] [--relieve E] [--wait COMMAND]
+
+Examples:
+  clayforge edit cup.gcode -o small.gcode scale --factor 0.5
+  clayforge edit cup.gcode -o slow.gcode speed --bottom 1 --top 0.6 rim --turns 2
+  clayforge edit vase.gcode -o both.gcode base plate.gcode clean --heaters pause --after-base --park 0,0")]
+pub struct Edit {
+    /// A G-code file of any program; `-` is standard input
+    pub file: PathBuf,
+    /// Where the result goes; `-` is standard output. It must stand before the edits
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: PathBuf,
+    /// What to do, one edit behind the other
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true, value_name = "EDIT")]
+    pub edits: Vec<String>,
 }
 
 #[cfg(test)]

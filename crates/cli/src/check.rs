@@ -1,76 +1,107 @@
 //! `clayforge check`.
 
 use crate::args::Check;
-use crate::craft::read;
-use crate::output::print;
+use crate::output::Output;
 use crate::profile;
-use crate::report::{Done, Stop};
-use clayforge::clay_processor::{Model, Report, process, to_json};
-use serde_json::Value as Json;
-use std::fmt::Write;
+use crate::report::{Done, Stop, io_error};
+use clayforge::Error;
+use clayforge::clay_processor::{Limits, Model, Options, Processor, Report, Severity, json};
+use std::fmt::Write as _;
+use std::fs::File;
+use std::io::{self, BufWriter, Read, Write};
+use std::path::Path;
 
-/// Says what a file is made of.
+/// Says what a file is made of, and whether it may be printed.
 pub fn run(check: &Check) -> Done {
-    let machine = check.profile.as_deref().map(profile::read).transpose()?.map(|profile| profile.machine);
-    let text = read(&check.file)?;
-    let mut report = process(&text);
-    let mut faults = Vec::new();
-    if let Some(machine) = &machine {
-        let room = machine.bed.z.mm();
-        if report.machine.max_height > room {
-            faults.push(format!(
-                "the print is {} mm high and the printer {room} mm",
-                report.machine.max_height
-            ));
+    let limits = match &check.profile {
+        Some(name) => profile::read(name)?.limits(),
+        None => Limits::default(),
+    };
+    let report = read(&check.file, limits)?;
+    let mut out = Output::stdout();
+    let written = if check.json {
+        write_json(&report, &mut out)
+    } else {
+        out.write(described(&check.file.display().to_string(), &report).as_bytes())
+    };
+    written.map_err(|error| out.stop(error))?;
+    out.finish()?;
+    if report.ok() { Ok(()) } else { Err(Stop::Fault) }
+}
+
+/// Reads a file piece by piece: it may be larger than the memory.
+fn read(path: &Path, limits: Limits) -> Result<Report, Error> {
+    /// Large enough that asking for it costs nothing, small enough to stay in the cache.
+    const PIECE: usize = 256 * 1024;
+    let name = if path.as_os_str() == "-" { Path::new("standard input") } else { path };
+    let refuse = |error: io::Error| io_error(name, "read", &error);
+    let mut file: Box<dyn Read> = match path.as_os_str() == "-" {
+        true => Box::new(io::stdin().lock()),
+        false => Box::new(File::open(path).map_err(refuse)?),
+    };
+    let mut processor = Processor::new(Options { limits, ..Options::default() });
+    let mut piece = vec![0; PIECE];
+    loop {
+        match file.read(&mut piece) {
+            Ok(0) => return Ok(processor.finish()),
+            Ok(length) => processor.push(piece.get(..length).unwrap_or_default()),
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+            Err(error) => return Err(refuse(error)),
         }
     }
-    if report.machine.layers.is_empty() && report.machine.spirals.is_empty() {
-        faults.push("nothing is printed in this file".to_owned());
-    }
-    report.ok &= faults.is_empty();
-    if check.json {
-        print(&format!("{}\n", with_faults(&report, &faults)))?;
-    } else {
-        print(&described(&check.file.display().to_string(), &report, &faults))?;
-    }
-    if report.ok { Ok(()) } else { Err(Stop::Fault) }
 }
 
-/// The report as JSON; what only a caller that knows the printer can find stands among the notes.
-fn with_faults(report: &Report, faults: &[String]) -> String {
-    let text = to_json(report);
-    if faults.is_empty() {
-        return text;
+/// The text of a large file's report is larger than the report, so it is never whole.
+fn write_json(report: &Report, out: &mut Output) -> Result<(), Error> {
+    /// Takes pieces of text; keeps the error that [`io::Error`] has no room for.
+    struct Pieces<'a>(&'a mut Output, Option<Error>);
+    impl Write for Pieces<'_> {
+        fn write(&mut self, piece: &[u8]) -> io::Result<usize> {
+            match self.0.write(piece) {
+                Ok(()) => Ok(piece.len()),
+                Err(error) => {
+                    self.1 = Some(error);
+                    Err(io::ErrorKind::Other.into())
+                }
+            }
+        }
+        fn flush(&mut self) -> io::Result<()> {
+            Ok(())
+        }
     }
-    let Ok(Json::Object(mut whole)) = serde_json::from_str(&text) else { return text };
-    if let Some(Json::Array(notes)) = whole.get_mut("notes") {
-        notes.extend(faults.iter().cloned().map(Json::String));
+    let mut pieces = BufWriter::new(Pieces(out, None));
+    // What fails is kept by `Pieces`.
+    let _ = writeln!(pieces, "{}", json(report)).and_then(|()| pieces.flush());
+    match pieces.get_mut().1.take() {
+        Some(error) => Err(error),
+        None => Ok(()),
     }
-    Json::Object(whole).to_string()
 }
 
-fn described(name: &str, report: &Report, faults: &[String]) -> String {
+fn described(name: &str, report: &Report) -> String {
     let mut text = format!("{name}: {} lines, {} that print\n", report.lines, report.extruding_lines);
     // Writing to a string cannot fail.
     for (who, model) in [("machine", &report.machine), ("letter", &report.letter)] {
         let _ = writeln!(text, "  {who:8} {}", counts(model));
     }
-    let gaps = &report.interruptions;
-    let _ = writeln!(
-        text,
-        "  {} breaks in the printing, {:.1} mm in all, the longest {:.1} mm",
-        gaps.count, gaps.length, gaps.longest
-    );
+    for (spiral, pitch) in report.machine.spirals.iter().zip(&report.pitches) {
+        let _ = write!(text, "  spiral from line {}: {:.1} turns", spiral.start_index + 1, pitch.turns);
+        let _ = match pitch.rise {
+            Some(rise) => writeln!(text, ", {rise:.3} mm each"),
+            None => writeln!(text),
+        };
+    }
     for note in &report.notes {
         let _ = writeln!(text, "  note: {}", note.text);
     }
-    for fault in faults {
-        let _ = writeln!(text, "  fault: {fault}");
+    for verdict in &report.verdicts {
+        let word = match verdict.severity {
+            Severity::Forbids => "fault",
+            Severity::Warns => "warning",
+        };
+        let _ = writeln!(text, "  {word}: {}", verdict.text);
     }
-    if faults.is_empty() && !report.ok {
-        let _ = writeln!(text, "  fault: something is printed at an unknown height, or not above the bed");
-    }
-    text.push_str(if report.ok { "ok\n" } else { "not ok\n" });
+    text.push_str(if report.ok() { "ok\n" } else { "not ok\n" });
     text
 }
 

@@ -32,7 +32,7 @@ pub use document::{Layer, Signature, Skein};
 pub use error::{Error, Place};
 pub use facts::{Bead, Facts, Section};
 pub use line::{Feature, Line, Mark, Move, Side, Tag};
-pub use machine::{Bed, BedShape, EUnit, Heaters, Machine, Origin};
+pub use machine::{Bed, BedShape, EUnit, Firmware, Heaters, Machine, Origin};
 pub use notes::{Note, Notes};
 pub use nozzle::{Nozzle, Span, boundary, spans};
 pub use pen::{Pen, Stretch, Thread, along};

@@ -2,7 +2,7 @@ use crate::Choice;
 use crate::settings::{Kind, ReadValue, Setting, Value};
 use std::fmt;
 use std::str::FromStr;
-use unit::Micron;
+use unit::{Micron, Ratio};
 
 /// The printer: how large it is, what it pushes through, and what its E word counts.
 #[derive(Clone, Debug, PartialEq, crate::Settings)]
@@ -19,6 +19,19 @@ pub struct Machine {
     /// The inner diameter of the nozzle.
     #[setting(default = 3.0, min = 0.1, max = 100.0, unit = "mm")]
     pub nozzle: Micron,
+    /// The program in the printer. It decides which commands `check` warns of: Marlin and RepRapFirmware refuse E while
+    /// it is cold, Marlin and Klipper refuse long ways of E.
+    #[setting(default = Firmware::Unknown)]
+    pub firmware: Firmware,
+    /// How fast E can go, in its unit per second; 0 if nobody knows. Faster moves are slowed down by the firmware.
+    #[setting(default = 0.0, min = 0.0, max = 1000.0)]
+    pub max_e_speed: Ratio,
+    /// How much clay the pump can give; 0 if nobody knows. More makes thinner beads.
+    #[setting(default = 0, min = 0, max = 1000000, unit = "mm³/s")]
+    pub max_flow: u32,
+    /// The longest way of E that the firmware takes in one move, in the unit of E; 0 for what the firmware comes with.
+    #[setting(default = 0, min = 0, max = 1000000000)]
+    pub longest_e: u32,
     /// What one unit of E is: "mm3" of clay; { ram = diameter } for millimetres of a piston of this diameter;
     /// { filament = diameter } for millimetres of a filament that only the firmware believes in;
     /// { per_mm = value } for this much E on every millimetre of a bead of nominal size.
@@ -92,6 +105,21 @@ pub enum BedShape {
     Ellipse,
 }
 
+/// The program in a printer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
+pub enum Firmware {
+    /// Nobody knows; `check` warns as for Marlin, which most clay printers run.
+    Unknown,
+    /// Marlin.
+    Marlin,
+    /// RepRapFirmware, on Duet boards.
+    Reprapfirmware,
+    /// Klipper.
+    Klipper,
+    /// One that does as it is told.
+    Plain,
+}
+
 /// What one unit of E is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EUnit {
@@ -132,7 +160,7 @@ impl Setting for EUnit {
         match named {
             Some(("ram", diameter)) => Micron::read_value(diameter).map(Self::Ram),
             Some(("filament", diameter)) => Micron::read_value(diameter).map(Self::Filament),
-            Some(("per_mm", number)) => unit::Ratio::read_value(number).map(|ratio| Self::PerMm(ratio.0)),
+            Some(("per_mm", number)) => Ratio::read_value(number).map(|ratio| Self::PerMm(ratio.0)),
             _ => Err("is not \"mm3\", { ram = diameter }, { filament = diameter } or { per_mm = value }"
                 .to_owned()),
         }
@@ -222,7 +250,7 @@ impl fmt::Display for EUnit {
             Self::Mm3 => f.write_str("mm3"),
             Self::Ram(diameter) => write!(f, "ram {diameter}"),
             Self::Filament(diameter) => write!(f, "filament {diameter}"),
-            Self::PerMm(millionths) => write!(f, "per_mm {}", unit::Ratio(*millionths)),
+            Self::PerMm(millionths) => write!(f, "per_mm {}", Ratio(*millionths)),
         }
     }
 }
@@ -237,7 +265,7 @@ impl FromStr for EUnit {
             "ram" => length().map(Self::Ram),
             "filament" => length().map(Self::Filament),
             "per_mm" => number
-                .parse::<unit::Ratio>()
+                .parse::<Ratio>()
                 .ok()
                 .filter(|ratio| ratio.0 > 0)
                 .map(|ratio| Self::PerMm(ratio.0))

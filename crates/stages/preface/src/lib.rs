@@ -83,8 +83,7 @@ impl Preface {
             return Ok(None);
         }
         Line::value("meta", note).map(Some).map_err(|_| {
-            Error::new(format!("meta = {note:?} cannot stand in a header tag"))
-                .hint("a note is one line")
+            Error::new(format!("meta = {note:?} cannot stand in a header tag")).hint("a note is one line")
         })
     }
 }
