@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 use tempfile::TempDir;
 
 /// The command, built once.
-fn program() -> &'static Path {
+pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
         // This test is target/debug/deps/all-…; the command is to be target/debug/clayforge.
@@ -38,10 +38,10 @@ fn program() -> &'static Path {
 }
 
 /// What a run of the command came to.
-struct Ran {
-    code: Option<i32>,
+pub struct Ran {
+    pub code: Option<i32>,
     out: Vec<u8>,
-    err: String,
+    pub err: String,
 }
 
 impl From<Output> for Ran {
@@ -55,30 +55,30 @@ impl From<Output> for Ran {
 }
 
 impl Ran {
-    fn out(&self) -> String {
+    pub fn out(&self) -> String {
         String::from_utf8_lossy(&self.out).into_owned()
     }
 
     #[track_caller]
-    fn done(self) -> Self {
+    pub fn done(self) -> Self {
         assert_eq!(self.code, Some(0), "{}", self.err);
         self
     }
 }
 
 /// A folder of one's own to run the command in; no profile of the user is found.
-struct Room(TempDir);
+pub struct Room(TempDir);
 
 impl Room {
-    fn new() -> Self {
+    pub fn new() -> Self {
         Self(TempDir::new().expect("a folder"))
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    fn put(&self, name: &str, bytes: impl AsRef<[u8]>) -> &Self {
+    pub fn put(&self, name: &str, bytes: impl AsRef<[u8]>) -> &Self {
         fs::write(self.path(name), bytes).expect("a file in a new folder");
         self
     }
@@ -94,7 +94,7 @@ impl Room {
         command
     }
 
-    fn run(&self, words: &[&str]) -> Ran {
+    pub fn run(&self, words: &[&str]) -> Ran {
         self.command(words).output().expect("the command runs").into()
     }
 

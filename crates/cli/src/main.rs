@@ -5,6 +5,7 @@ mod check;
 mod craft;
 mod dump;
 mod explain;
+mod mesh;
 mod output;
 mod profile;
 mod report;
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
         Command::Stages(stages) => explain::stages(stages),
         Command::Explain(topic) => explain::run(topic),
         Command::Profile(profile) => profile::run(profile),
+        Command::Mesh(mesh) => mesh::run(mesh),
         Command::Check(check) => check::run(check),
     };
     report::exit(done)
