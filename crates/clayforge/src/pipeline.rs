@@ -1,10 +1,10 @@
 //! Runs the stages: in memory from a part to the file, or one stage from text to text. Both go through `step`.
 
+use crate::door::{self, Door};
 use crate::draw::{Drawing, draw};
 use crate::figures::Figures;
 use crate::profile::{Profile, Station};
 use crate::work::{Bench, Sink};
-use crate::door::{self, Door};
 use crate::{Document, Form};
 use clay_processor::{Options, Processor, Report};
 use import::{Format, Import};
@@ -151,7 +151,9 @@ pub fn craft(
     let name = station.entry.name;
     let (takes, gives) = station.work.forms();
     let form = Form::of(text);
-    if !station.active || (form == gives && takes != gives && read(form, text, &profile.import, notes)?.has_done(name)) {
+    if !station.active
+        || (form == gives && takes != gives && read(form, text, &profile.import, notes)?.has_done(name))
+    {
         return sink(text);
     }
     let document = read(takes, text, &profile.import, notes).map_err(|error| error.said_by(name))?;
