@@ -40,7 +40,7 @@ pub fn program() -> &'static Path {
 /// What a run of the command came to.
 pub struct Ran {
     pub code: Option<i32>,
-    out: Vec<u8>,
+    pub out: Vec<u8>,
     pub err: String,
 }
 

@@ -3,6 +3,7 @@
 
 mod bytes;
 mod cases;
+mod plate;
 mod shapes;
 
 use crate::cli::program;

@@ -75,8 +75,7 @@ pub(crate) fn inside_out(mesh: &TriangleMesh) -> (Vec<bool>, usize) {
     let volumes = shells.volumes(mesh);
     let mut over = vec![false; shells.count];
     // A part with all its cavities inside out is turned as a whole.
-    let closed = volumes.iter().filter(|(_, closed)| *closed);
-    let all = closed.map(|(volume, _)| *volume).sum::<i128>() < 0;
+    let all = volumes.iter().map(|(volume, _)| *volume).sum::<i128>() < 0;
     let inward = |shell: usize| volumes[shell].1 && (volumes[shell].0 < 0) != all;
     if all || (0..shells.count).any(inward) {
         over.fill(all);

@@ -40,7 +40,7 @@ pub struct Layer {
 pub fn of_chains(chains: Vec<Chain>, how: How, layer: usize) -> Layer {
     let mut done = Layer::default();
     if let Some(width) = how.wall {
-        done.loops = nested(walls(&chains, width, how.tolerance));
+        done.loops = ordered(walls(&chains, width, how.tolerance));
         return done;
     }
     let (closed, open): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(|chain| chain.closed);
@@ -57,7 +57,7 @@ pub fn of_chains(chains: Vec<Chain>, how: How, layer: usize) -> Layer {
         done.notes.layer(layer, "shells of the part overlap or touch; they are printed as one");
     }
     let meet = done.crossed || was_open && rings.len() > 1;
-    done.loops = nested(if meet { nonzero(&rings) } else { rings });
+    done.loops = if meet { ordered(nonzero(&rings)) } else { nested(rings) };
     done
 }
 
@@ -93,13 +93,17 @@ fn from_least(mut ring: Ring) -> Ring {
     ring
 }
 
-/// Larger first, and only those with clay on one side, each turned so that it is on the left.
-///
-/// Each begins at its least point and loops of one size are sorted by it, so that the order of the triangles in the
-/// file does not matter.
-fn nested(rings: Vec<Ring>) -> Vec<Ring> {
+/// Larger first, each from its least point, those of one size sorted by it: so the order of the triangles in the file
+/// does not matter.
+fn ordered(rings: Vec<Ring>) -> Vec<Ring> {
     let mut rings: Vec<Ring> = rings.into_iter().filter(|ring| ring.area2() != 0).map(from_least).collect();
     rings.sort_by_cached_key(|ring| (Reverse(ring.area2().unsigned_abs()), ring.0.first().copied()));
+    rings
+}
+
+/// [`ordered`], and only those with clay on one side, each turned so that it is on the left. They do not touch.
+fn nested(rings: Vec<Ring>) -> Vec<Ring> {
+    let rings = ordered(rings);
     let boxes: Vec<(Point, Point)> = rings.iter().map(|ring| ring.bounds().unwrap_or_default()).collect();
     let senses: Vec<i32> = rings.iter().map(|ring| if ring.area2() > 0 { 1 } else { -1 }).collect();
     // For each loop whether there is clay outside and inside.
