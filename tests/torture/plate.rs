@@ -32,8 +32,9 @@ fn a_mesh_is_described_and_repaired_into_a_file_that_is_sound() {
     let again = inspected(&room, &["sound.stl"]);
     assert_eq!((&again["sound"], &again["volume_mm3"]), (&true.into(), &5800.0.into()));
     assert_eq!((&again["stands"], &again["overhang"]), (&true.into(), &Json::Null));
+    // With one piece inside out the centre of mass is nowhere near; described is what the file has.
     let text = String::from_utf8(room.run(&["mesh", "cup.stl"]).done().out).expect("text");
-    for line in ["not sound", "size      50.0 × 20.0 × 12.0 mm", "3 open edges", "thinnest", "stands    yes"]
+    for line in ["not sound", "size      50.0 × 20.0 × 12.0 mm", "3 open edges", "thinnest", "stands    no"]
     {
         assert!(text.contains(line), "`{line}` is not in: {text}");
     }

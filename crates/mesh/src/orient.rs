@@ -2,7 +2,7 @@
 
 use crate::shells::{Shells, crowded_edges};
 use crate::tree::{Box3, Tree, array};
-use shape::TriangleMesh;
+use shape::{Edge, TriangleMesh};
 
 /// The faces that must be turned over so that neighbours agree.
 pub(crate) struct Turns {
@@ -57,6 +57,20 @@ pub(crate) fn agreed(mesh: &TriangleMesh) -> Turns {
     }
     turns.over = over.into_iter().map(|over| over == Some(true)).collect();
     turns
+}
+
+/// Turns faces over where they are. The pairs of faces at the edges stay as they are.
+pub(crate) fn turn(mesh: &mut TriangleMesh, over: &[bool]) {
+    for (face, _) in mesh.faces.iter_mut().zip(over).filter(|(_, over)| **over) {
+        // The edges begin with the one between the first two vertices.
+        face.vertices.swap(1, 2);
+        face.edges.swap(0, 2);
+    }
+    let alike = |(edge, number): &(&Edge, u32)| {
+        let [one, other] = edge.faces;
+        other != Edge::OPEN && runs_up(mesh, one, *number) == runs_up(mesh, other, *number)
+    };
+    mesh.flaws.alike = mesh.edges.iter().zip(0u32..).filter(alike).count();
 }
 
 /// Whether a face runs along an edge from its smaller vertex to its larger.

@@ -2,6 +2,7 @@
 
 use crate::{holes, orient, rims, split, twins, weld};
 use shape::TriangleMesh;
+use std::borrow::Cow;
 
 /// How a mesh is to be repaired.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,11 +101,12 @@ const ROUNDS: usize = 4;
 
 /// Repairs a mesh: duplicates out, cracks and T-junctions closed, neighbours agreed, holes closed, shells outside out.
 pub fn repair(mesh: &TriangleMesh, how: Repair) -> (TriangleMesh, Repairs) {
-    let mut work =
-        Work { mesh: mesh.clone(), done: Repairs { open_before: mesh.flaws.open, ..Repairs::default() } };
-    work.without_twins();
+    let mut work = Work {
+        mesh: Cow::Borrowed(mesh),
+        done: Repairs { open_before: mesh.flaws.open, ..Repairs::default() },
+    };
+    work.weld(how.weld);
     if work.mesh.flaws.open > 0 {
-        work.weld(how.weld);
         work.without_flat();
         work.split(how.weld);
     }
@@ -115,16 +117,16 @@ pub fn repair(mesh: &TriangleMesh, how: Repair) -> (TriangleMesh, Repairs) {
     }
     work.outwards();
     work.done.open_after = work.mesh.flaws.open;
-    (work.mesh, work.done)
+    (work.mesh.into_owned(), work.done)
 }
 
-/// A mesh under repair.
-struct Work {
-    mesh: TriangleMesh,
+/// A mesh under repair. Finding the edges anew is what costs, so it is done as seldom as can be.
+struct Work<'a> {
+    mesh: Cow<'a, TriangleMesh>,
     done: Repairs,
 }
 
-impl Work {
+impl Work<'_> {
     fn triangles(&self) -> Vec<[u32; 3]> {
         self.mesh.faces.iter().map(|face| face.vertices).collect()
     }
@@ -134,26 +136,35 @@ impl Work {
         let before = triangles.len();
         triangles.retain(|[a, b, c]| a != b && b != c && c != a);
         self.done.degenerate += before - triangles.len();
-        let vertices = std::mem::take(&mut self.mesh).vertices;
-        self.mesh = TriangleMesh::from_triangles(vertices, triangles);
+        // The old edges go before the new ones come.
+        let vertices = match std::mem::replace(&mut self.mesh, Cow::Owned(TriangleMesh::default())) {
+            Cow::Borrowed(mesh) => mesh.vertices.clone(),
+            Cow::Owned(mesh) => mesh.vertices,
+        };
+        self.mesh = Cow::Owned(TriangleMesh::from_triangles(vertices, triangles));
     }
 
     /// The triangles without those of the numbers, which rise.
-    fn leave_out(&mut self, numbers: &[u32]) {
+    fn without(&self, numbers: &[u32]) -> Vec<[u32; 3]> {
         let mut triangles = self.triangles();
-        let mut number = 0u32;
+        let (mut number, mut next) = (0u32, numbers.iter().copied().peekable());
         triangles.retain(|_| {
             number += 1;
-            numbers.binary_search(&(number - 1)).is_err()
+            next.next_if_eq(&(number - 1)).is_none()
         });
-        self.set(triangles);
+        triangles
     }
 
-    fn without_twins(&mut self) {
+    /// Duplicate faces go, and cracks are closed.
+    fn weld(&mut self, tolerance: i32) {
         let needless = twins::needless(&self.mesh);
-        if !needless.is_empty() {
-            self.done.doubled += needless.len();
-            self.leave_out(&needless);
+        let (becomes, count) = weld::welded(&self.mesh, &rims::open_sides(&self.mesh), tolerance);
+        self.done.doubled += needless.len();
+        self.done.welded += count;
+        if !needless.is_empty() || count > 0 {
+            let mut triangles = self.without(&needless);
+            triangles.as_flattened_mut().iter_mut().for_each(|vertex| *vertex = becomes[*vertex as usize]);
+            self.set(triangles);
         }
     }
 
@@ -168,20 +179,7 @@ impl Work {
         flat.dedup();
         if !flat.is_empty() {
             self.done.degenerate += flat.len();
-            self.leave_out(&flat);
-        }
-    }
-
-    fn weld(&mut self, tolerance: i32) {
-        let (becomes, count) = weld::welded(&self.mesh, &rims::open_sides(&self.mesh), tolerance);
-        if count > 0 {
-            self.done.welded += count;
-            self.set(
-                self.triangles()
-                    .into_iter()
-                    .map(|face| face.map(|vertex| becomes[vertex as usize]))
-                    .collect(),
-            );
+            self.set(self.without(&flat));
         }
     }
 
@@ -189,19 +187,16 @@ impl Work {
         for _ in 0..ROUNDS {
             let sides = rims::open_sides(&self.mesh);
             let mut triangles = self.triangles();
-            let count = split::split(&self.mesh, &sides, tolerance, &mut triangles);
+            let (count, again) = split::split(&self.mesh, &sides, tolerance, &mut triangles);
             if count == 0 {
                 return;
             }
             self.done.split += count;
             self.set(triangles);
+            if !again {
+                return;
+            }
         }
-    }
-
-    /// Turns faces over, of which it is said whether.
-    fn turn(&mut self, over: &[bool]) {
-        let turned = |([a, b, c], over): ([u32; 3], &bool)| if *over { [a, c, b] } else { [a, b, c] };
-        self.set(self.triangles().into_iter().zip(over).map(turned).collect());
     }
 
     fn agree(&mut self) {
@@ -210,9 +205,13 @@ impl Work {
         }
         let turns = orient::agreed(&self.mesh);
         self.done.one_sided |= turns.one_sided;
+        self.done.turned += turns.count;
         if turns.count > 0 {
-            self.done.turned += turns.count;
-            self.turn(&turns.over);
+            orient::turn(self.mesh.to_mut(), &turns.over);
+        }
+        // Where more than two faces meet others may belong together now.
+        if self.mesh.flaws.alike > 0 {
+            self.set(self.triangles());
         }
     }
 
@@ -233,7 +232,7 @@ impl Work {
         let (over, shells) = orient::inside_out(&self.mesh);
         if shells > 0 {
             self.done.shells_turned += shells;
-            self.turn(&over);
+            orient::turn(self.mesh.to_mut(), &over);
         }
     }
 }

@@ -6,18 +6,17 @@ use shape::{Point3, TriangleMesh};
 
 /// Splits the faces whose open sides pass within `tolerance` of vertices of rims, at these vertices.
 ///
-/// Returns how many sides were split.
+/// Returns how many sides were split, and whether a face has more of them: one side of a face is split at a time.
 pub(crate) fn split(
     mesh: &TriangleMesh,
     sides: &[Side],
     tolerance: i32,
     triangles: &mut Vec<[u32; 3]>,
-) -> usize {
+) -> (usize, bool) {
     let rim = rims::vertices(sides);
     let point = |vertex: u32| mesh.vertices[vertex as usize];
     let tree = Tree::new(rim.iter().map(|vertex| Box3::around([point(*vertex)])));
-    let mut count = 0;
-    // One side of a face at a time: the faces that come from it are asked again in the next round.
+    let (mut count, mut again) = (0, false);
     let mut done = vec![false; mesh.faces.len()];
     for side in sides {
         let (from, to) = (point(side.from), point(side.to));
@@ -31,7 +30,11 @@ pub(crate) fn split(
                 on.push((share, vertex));
             }
         });
-        if on.is_empty() || std::mem::replace(&mut done[side.face as usize], true) {
+        if on.is_empty() {
+            continue;
+        }
+        if std::mem::replace(&mut done[side.face as usize], true) {
+            again = true;
             continue;
         }
         on.sort_unstable_by(|one, other| one.0.total_cmp(&other.0).then(one.1.cmp(&other.1)));
@@ -50,7 +53,7 @@ pub(crate) fn split(
         }
         triangles.push([before, side.to, apex]);
     }
-    count
+    (count, again)
 }
 
 /// Where along a side its point nearest to another point is, if that is near enough and between the ends.
