@@ -15,7 +15,8 @@ pub fn run(mesh: &Mesh) -> Done {
     let profile = profile::load(&mesh.settings)?;
     let name = mesh.part.display().to_string();
     let mut notes = Notes::default();
-    let part = read_part(&read(&mesh.part)?, &profile, &mut notes).map_err(|error| report::about(&mesh.part, error))?;
+    let part = read_part(&read(&mesh.part)?, &profile, &mut notes)
+        .map_err(|error| report::about(&mesh.part, error))?;
     let before = Inspection::of(&part, &profile);
     let after = mesh.repair.then(|| {
         let (sound, done) = repaired(&part, &profile);
