@@ -5,12 +5,16 @@
 //! * [`parts`]: whole prints, in memory and as text, on one thread and on two;
 //! * [`cli`]: the command as scripts and people meet it;
 //! * [`edit`]: the page of `clayforge edit` is its test;
+//! * [`import`]: parts of every format through the command;
+//! * [`torture`]: parts as potters find them, each in a process of its own;
 //! * [`tidy`]: the layout of the workspace.
 
 mod cases;
 mod cli;
 mod edit;
+mod import;
 mod law;
 mod parts;
 mod support;
 mod tidy;
+mod torture;

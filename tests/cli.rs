@@ -15,7 +15,7 @@ use std::sync::OnceLock;
 use tempfile::TempDir;
 
 /// The command, built once.
-fn program() -> &'static Path {
+pub fn program() -> &'static Path {
     static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
     PROGRAM.get_or_init(|| {
         // This test is target/debug/deps/all-…; the command is to be target/debug/clayforge.
@@ -40,7 +40,7 @@ fn program() -> &'static Path {
 /// What a run of the command came to.
 pub struct Ran {
     pub code: Option<i32>,
-    out: Vec<u8>,
+    pub out: Vec<u8>,
     pub err: String,
 }
 

@@ -449,12 +449,16 @@ fn vertices_on_the_cutting_planes_do_no_harm() {
     assert_eq!(slices.layers[0].z.to_string(), "0.2");
 }
 
-/// A-3 and C7: one triangle of a side wall is missing.
+/// A-3 and C7: one triangle of a side wall is missing. Repaired it is the whole box, and said so; unrepaired the layers
+/// that are open are named.
 #[test]
-fn an_open_part_is_printed_with_its_open_layers_named() {
+fn an_open_part_is_printed_whole_and_said() {
     let mut part = cuboid([0.0; 3], [20.0, 20.0, 12.0]);
     part.remove(0);
     let run = sliced("cube-minus-one", &stl(&part), &clay(&[]));
+    assert!(run.sliced.notes.iter().any(|note| note.stage == "carve" && note.text.contains("hole")));
+    assert!(areas(&run).iter().all(|area| *area == 400.0), "{:?}", areas(&run));
+    let run = sliced("cube-minus-one", &stl(&part), &clay(&[("carve.repair", "false")]));
     let named = run.sliced.notes.iter().filter(|note| note.stage == "carve" && note.layer.is_some()).count();
     assert!(named > 0, "{:?}", run.sliced.notes);
     for area in areas(&run) {

@@ -8,6 +8,7 @@ use clayforge::clay_processor::{Options, Processor};
 use divan::counter::{BytesCount, ItemsCount};
 use divan::{Bencher, black_box};
 use fill::Fill;
+use import::Import;
 use inset::Inset;
 use preface::Preface;
 use shape::TriangleMesh;
@@ -22,7 +23,7 @@ fn main() {
 }
 
 fn mesh(triangles: usize) -> TriangleMesh {
-    stl::read(&vase(triangles)).expect("a sound file").mesh
+    Import::default().read(&vase(triangles)).expect("a sound file").mesh
 }
 
 fn slices(triangles: usize) -> Slices {
@@ -44,7 +45,7 @@ fn filled(triangles: usize) -> Skein {
 #[divan::bench(args = SIZES, sample_count = 20, sample_size = 1)]
 fn import(bencher: Bencher, triangles: usize) {
     let bytes = vase(triangles);
-    bencher.counter(BytesCount::of_slice(&bytes)).bench(|| stl::read(black_box(&bytes)));
+    bencher.counter(BytesCount::of_slice(&bytes)).bench(|| Import::default().read(black_box(&bytes)));
 }
 
 /// A mesh to the loops of 67 layers.

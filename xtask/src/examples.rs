@@ -259,7 +259,7 @@ mod tests {
         for (name, mesh) in all() {
             let bytes = bytes(name, &mesh);
             assert!(bytes.len() <= 200_000, "{name} has {} bytes", bytes.len());
-            let import = stl::read(&bytes).expect(name);
+            let import = import::Import::default().read(&bytes).expect(name);
             assert_eq!(import.report.notes(), Vec::<String>::new(), "{name}");
             let mesh = import.mesh;
             assert_eq!(mesh.open_edges(), 0, "{name}");
@@ -301,7 +301,7 @@ mod tests {
 
     #[test]
     fn the_cup_has_its_size() {
-        let mesh = stl::read(&bytes("cup", &cup())).expect("a cup").mesh;
+        let mesh = import::Import::default().read(&bytes("cup", &cup())).expect("a cup").mesh;
         let bounds = mesh.bounds();
         assert_eq!((bounds.max.x, bounds.max.z), (35_000, 80_000));
         let exact = TAU / 2.0 * (35.0 * 35.0 * 80.0 - 28.6 * 28.6 * 74.0);

@@ -7,8 +7,8 @@ use std::fmt;
 /// What stands between two stages.
 #[derive(Clone, Debug)]
 pub enum Document {
-    /// A part as triangles.
-    Mesh(TriangleMesh),
+    /// The parts as triangles.
+    Mesh(Vec<TriangleMesh>),
     /// The loops of each layer.
     Slices(Slices),
     /// Tagged G-code.
@@ -42,10 +42,9 @@ impl Form {
 
     /// Guesses the form of a text from how it begins; only the forms that a stage reads.
     pub fn of(text: &[u8]) -> Self {
-        let start = text.strip_prefix(b"\xef\xbb\xbf").unwrap_or(text).trim_ascii_start();
         let head = &text[..text.len().min(1 << 16)];
         let has = |needle: &[u8]| head.windows(needle.len()).any(|window| window == needle);
-        if start.starts_with(b"<") {
+        if import::is_drawing(text) {
             Self::Slices
         } else if has(b"(<extruderInitialization>)") || has(b"(</extruderInitialization>)") {
             Self::Skein

@@ -1,7 +1,7 @@
 //! The facade: everything a program needs to turn a part into clay G-code.
 //!
 //! * [`STAGES`] is the table of stages; [`Profile`] holds the settings of all of them, read from TOML with places.
-//! * [`slice()`] runs the chain in memory from an STL to the file; [`craft()`] runs one stage from text to text.
+//! * [`slice()`] runs the chain in memory from a mesh or a drawing to the file; [`craft()`] runs one stage from text to text.
 //! * [`draw()`] draws the layers of a document; [`explain()`] is the manual.
 //!
 //! It prints nothing, opens no file and knows no terminal: where bytes come from and go to is the caller's business.
@@ -18,9 +18,11 @@
 //! ```
 
 mod document;
+mod door;
 mod draw;
 mod explain;
 mod figures;
+mod inspect;
 mod limits;
 mod pipeline;
 mod profile;
@@ -31,10 +33,14 @@ mod work;
 
 pub use clay_processor;
 pub use document::{Document, Form};
+pub use door::read_part;
 pub use draw::{Drawing, draw};
 pub use explain::explain;
 pub use figures::Figures;
-pub use pipeline::{Event, Found, Sliced, Watch, craft, draw_text, set_threads, slice};
+pub use import::Format;
+pub use inspect::{Inspection, repaired};
+pub use mesh;
+pub use pipeline::{Event, Found, Sliced, Watch, craft, draw_text, set_threads, slice, slice_all};
 pub use profile::{
     BUILT_IN, Clay, Lookup, Profile, Source, Station, built_in, is_built_in, only_built_in, schema, starter,
 };

@@ -1,19 +1,21 @@
 //! Runs the stages: in memory from a part to the file, or one stage from text to text. Both go through `step`.
 
+use crate::door::{self, Door};
 use crate::draw::{Drawing, draw};
 use crate::figures::Figures;
 use crate::profile::{Profile, Station};
 use crate::work::{Bench, Sink};
 use crate::{Document, Form};
 use clay_processor::{Firmware, Limits, Options, Processor, Report, Rule, Severity, Verdict};
-use skein::{Error, Notes, Place, Signature, Skein, Slices, Value};
+use import::{Format, Import};
+use skein::{Error, Notes, Signature, Skein, Slices, Value};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 /// What happens while a part is sliced, for progress bars, clocks and dumps.
 pub enum Event<'a> {
     /// A stage begins.
     Started {
-        /// The stage; `stl` is the reading of the part.
+        /// The stage; `import` is the reading of the part.
         name: &'static str,
     },
     /// A stage has ended.
@@ -43,6 +45,8 @@ pub struct Sliced {
     pub found: Option<Found>,
     /// The form of what went to the sink.
     pub form: Option<Form>,
+    /// What the files of the parts were, by their bytes.
+    pub formats: Vec<Format>,
 }
 
 /// What the letter model of the clay processor finds in the finished file.
@@ -54,7 +58,7 @@ pub struct Found {
     pub spirals: usize,
 }
 
-/// Slices the bytes of an STL file; what the last stage makes goes to the sink, piece by piece.
+/// Slices the bytes of a part in any known form; what the last stage makes goes to the sink, piece by piece.
 ///
 /// The chain ends early behind the stage `until`. The bytes are dropped as soon as they are read.
 ///
@@ -62,6 +66,21 @@ pub struct Found {
 /// When the part, the profile or a stage refuses; an error that names nobody is about the part.
 pub fn slice(
     part: impl AsRef<[u8]>,
+    profile: &Profile,
+    until: Option<&str>,
+    watch: Watch<'_>,
+    sink: Sink<'_>,
+) -> Result<Sliced, Error> {
+    slice_all([Ok(part)], profile, until, watch, sink)
+}
+
+/// Slices several parts, which stand side by side on the bed. Each is asked for when the one before it has been read;
+/// one that cannot be had stops the slicing with its error.
+///
+/// # Errors
+/// When a part, the profile or a stage refuses; an error that names nobody is about the last part that was asked for.
+pub fn slice_all<P: AsRef<[u8]>>(
+    parts: impl IntoIterator<Item = Result<P, Error>>,
     profile: &Profile,
     until: Option<&str>,
     watch: Watch<'_>,
@@ -75,21 +94,24 @@ pub fn slice(
             .said_by("--until"));
     }
     profile.check(&mut sliced.notes)?;
-    watch(Event::Started { name: "stl" })?;
-    let mut document = Document::Mesh(read_mesh(part.as_ref(), &mut sliced.notes)?);
-    drop(part);
-    watch(Event::Done { name: "stl", number: 0, of: chain.len(), document: &document })?;
+    watch(Event::Started { name: Import::NAME })?;
+    let Door { mut document, doubt } = door::open(parts, profile, &mut sliced)?;
+    watch(Event::Done { name: Import::NAME, number: 0, of: chain.len(), document: &document })?;
     for (index, station) in chain.iter().enumerate() {
         let name = station.entry.name;
         watch(Event::Started { name })?;
         let mut bench = Bench { machine: &profile.machine, notes: &mut sliced.notes, sink: &mut *sink };
+        let is_part = document.form() == Form::Mesh;
         document = if station.work.forms().1 == Form::Gcode {
             let (figures, found) = finish(station, document, profile, &mut bench)?;
             sliced.figures = Some(figures);
             sliced.found = Some(found);
             Document::Gcode
         } else {
-            step(station, document, &mut bench)?
+            step(station, document, &mut bench).map_err(|error| match &doubt {
+                Some(doubt) if is_part => error.hint(doubt),
+                _ => error,
+            })?
         };
         watch(Event::Done { name, number: index + 1, of: chain.len(), document: &document })?;
         if until == Some(name) {
@@ -129,10 +151,12 @@ pub fn craft(
     let name = station.entry.name;
     let (takes, gives) = station.work.forms();
     let form = Form::of(text);
-    if !station.active || (form == gives && takes != gives && read(form, text, notes)?.has_done(name)) {
+    if !station.active
+        || (form == gives && takes != gives && read(form, text, &profile.import, notes)?.has_done(name))
+    {
         return sink(text);
     }
-    let document = read(takes, text, notes).map_err(|error| error.said_by(name))?;
+    let document = read(takes, text, &profile.import, notes).map_err(|error| error.said_by(name))?;
     if document.has_done(name) {
         return sink(text);
     }
@@ -224,7 +248,8 @@ fn judge(verdicts: &[Verdict], notes: &mut Notes) -> Result<(), Error> {
             Severity::Forbids => {
                 return Err(Error::new(format!("the finished file must not be printed: {}", verdict.text))
                     .hint(
-                        "look at alteration.start and alteration.end; if it is not they, please report it as our bug",
+                        "does a piece of the part float in the air, or do the lines of alteration do this? if it is neither, \
+                         please report it as our bug",
                     )
                     .said_by("check"));
             }
@@ -302,29 +327,12 @@ fn figures(skein: &Skein, profile: &Profile) -> Result<Figures, Error> {
 }
 
 /// Reads a text of a form.
-fn read(form: Form, text: &[u8], notes: &mut Notes) -> Result<Document, Error> {
+fn read(form: Form, text: &[u8], import: &Import, notes: &mut Notes) -> Result<Document, Error> {
     match form {
-        Form::Mesh => read_mesh(text, notes).map(Document::Mesh),
+        Form::Mesh => door::mesh(text, import, notes).map(|mesh| Document::Mesh(vec![mesh])),
         Form::Slices => Slices::read(text).map(Document::Slices),
         Form::Skein | Form::Gcode => Skein::read(text).map(Document::Skein),
     }
-}
-
-fn read_mesh(bytes: &[u8], notes: &mut Notes) -> Result<shape::TriangleMesh, Error> {
-    let import = stl::read(bytes).map_err(|error| {
-        let place = match error.place {
-            stl::Place::File => Place::Whole,
-            stl::Place::Byte(byte) => Place::At(format!("byte {byte}")),
-            stl::Place::Line(line) => Place::Line(line),
-            stl::Place::Facet { number, byte } => Place::At(format!("facet {number} (byte {byte})")),
-        };
-        Error::new(error.message).at(place).hint(error.hint)
-    })?;
-    for note in import.report.notes() {
-        notes.say(note);
-    }
-    notes.said_by("stl");
-    Ok(import.mesh)
 }
 
 /// Reads a text between two stages and draws its layers.
@@ -336,7 +344,7 @@ pub fn draw_text(text: &[u8], drawing: Drawing) -> Result<String, Error> {
         Form::Mesh => Form::Skein,
         form => form,
     };
-    draw(&read(form, text, &mut Notes::default())?, drawing)
+    draw(&read(form, text, &Import::default(), &mut Notes::default())?, drawing)
 }
 
 /// Has all work done on so many threads; to be called before anything else, and once.

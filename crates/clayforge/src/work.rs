@@ -119,7 +119,9 @@ impl Work for Special<carve::Carve> {
     }
     fn work(&self, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
         match document {
-            Document::Mesh(mesh) => self.0.carve(&mesh, bench.machine, bench.notes).map(Document::Slices),
+            Document::Mesh(parts) => {
+                self.0.carve_all(&parts, bench.machine, bench.notes).map(Document::Slices)
+            }
             other => Err(wrong_form(Form::Mesh, other.form())),
         }
     }

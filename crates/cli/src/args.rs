@@ -16,6 +16,7 @@ Examples:
   clayforge slice cup.stl --dump steps             look at every stage: steps/*.layers.svg
   clayforge profile new > mine.toml                a profile of your own
   clayforge explain fill.walls                     what a setting does
+  clayforge mesh cup.stl                           size, faults, thinnest wall, overhang of a part
   clayforge check cup.gcode                        layers, spirals and gaps of a finished file
   clayforge edit cup.gcode -o small.gcode scale --factor 0.5
 
@@ -40,6 +41,8 @@ pub enum Command {
     Explain(Explain),
     /// List, show, check and begin profiles
     Profile(Profile),
+    /// Say what a part is, what is wrong with it, and whether it stands
+    Mesh(Mesh),
     /// Say what a G-code file is made of, and whether a clay printer can print it
     Check(Check),
     /// Change finished G-code: scale, speed, nozzle, base, clean, rim, pause
@@ -73,14 +76,19 @@ Examples:
   clayforge slice cup.stl -o - --quiet | less                to standard output
   clayforge slice cup.stl --set carve.layer_height=1 --set 'machine.bed=[300, 300, 400]'
   clayforge slice cup.stl --set 'machine.e_unit={ ram = 60 }'
+  clayforge slice cup.stl lid.stl knob.stl -o set.gcode      side by side on one bed
+  clayforge slice lying.stl --rotate 90,0,0                  stood up
   clayforge slice cup.stl --until fill --dump steps          stop behind fill and look at it
   clayforge slice cup.stl --report cup.json                  layers, clay, time, warnings for scripts")]
 pub struct Slice {
-    /// The part: an STL file, text or binary
-    pub part: PathBuf,
+    /// The part, or several that are put side by side
+    #[arg(value_name = "PART", required = true)]
+    pub parts: Vec<PathBuf>,
     #[command(flatten)]
     pub settings: Settings,
-    /// Where the G-code goes; `-` is standard output [default: PART with .gcode]
+    #[command(flatten)]
+    pub placing: Placing,
+    /// Where the G-code goes; `-` is standard output [default: the first PART with .gcode]
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<PathBuf>,
     /// Write the text and the drawn layers of every stage into this folder
@@ -98,6 +106,68 @@ pub struct Slice {
     /// No progress and no summary; errors are still said
     #[arg(short, long)]
     pub quiet: bool,
+}
+
+/// Where the part goes: short for settings of carve.
+#[derive(Args, Clone, Default)]
+pub struct Placing {
+    /// Turn every part about x, then y, then z, in degrees: carve.rotate
+    #[arg(long, value_name = "X,Y,Z", value_parser = turns, allow_hyphen_values = true)]
+    pub rotate: Option<String>,
+    /// Put it on the middle of the bed: carve.place = "bed"
+    #[arg(long)]
+    pub center: bool,
+    /// Let it down onto the bed where its file has it: carve.place = "keep"; with --center it is put on the middle
+    #[arg(long)]
+    pub drop: bool,
+}
+
+impl Placing {
+    /// The settings as pairs.
+    pub fn settings(&self) -> Vec<(String, String)> {
+        let place = match (self.center, self.drop) {
+            (true, _) => Some("\"bed\""),
+            (false, true) => Some("\"keep\""),
+            (false, false) => None,
+        };
+        let pair = |key: &str, value: &str| (key.to_owned(), value.to_owned());
+        let rotate = self.rotate.as_deref().map(|turns| pair("carve.rotate", turns));
+        place.map(|place| pair("carve.place", place)).into_iter().chain(rotate).collect()
+    }
+}
+
+/// `90,0,0` as a value of a profile.
+fn turns(text: &str) -> Result<String, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(',').map(|turn| turn.trim().parse::<f64>()).collect();
+    match numbers.as_deref() {
+        Ok([x, y, z]) if [x, y, z].iter().all(|turn| turn.is_finite()) => Ok(format!("[{x}, {y}, {z}]")),
+        _ => Err("it must be X,Y,Z in degrees, like 90,0,0".to_owned()),
+    }
+}
+
+/// `clayforge mesh`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  clayforge mesh scan.stl
+  clayforge mesh scan.stl --json
+  clayforge mesh scan.stl --repair -o sound.stl              what slice would do, as a file
+
+Exit codes: 0 the part was examined, whatever is wrong with it; 1 it could not be read; 2 wrong usage.")]
+pub struct Mesh {
+    /// The part
+    pub part: PathBuf,
+    #[command(flatten)]
+    pub settings: Settings,
+    /// As JSON, for scripts
+    #[arg(long)]
+    pub json: bool,
+    /// Write the repaired part as a binary STL
+    #[arg(long, requires = "output")]
+    pub repair: bool,
+    /// Where the repaired part goes; `-` is standard output
+    #[arg(short, long, value_name = "OUT", requires = "repair")]
+    pub output: Option<PathBuf>,
 }
 
 /// `clayforge craft`.

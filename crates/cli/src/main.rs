@@ -6,6 +6,7 @@ mod craft;
 mod dump;
 mod edit;
 mod explain;
+mod mesh;
 mod output;
 mod profile;
 mod report;
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
         Command::Stages(stages) => explain::stages(stages),
         Command::Explain(topic) => explain::run(topic),
         Command::Profile(profile) => profile::run(profile),
+        Command::Mesh(mesh) => mesh::run(mesh),
         Command::Check(check) => check::run(check),
         Command::Edit(edit) => edit::run(edit),
     };

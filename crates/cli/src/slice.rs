@@ -7,21 +7,32 @@ use crate::profile;
 use crate::report::{self, Done, Stop, io_error};
 use clayforge::{Error, Event, Form, stage};
 use indicatif::{ProgressBar, ProgressStyle};
+use std::cell::Cell;
 use std::fs;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Slices a part.
+/// Slices parts.
 pub fn run(slice: &Slice) -> Done {
     let start = Instant::now();
     if slice.threads > 0 {
         // Only one pool can be, and it is this one: nothing has used it yet.
         let _ = clayforge::set_threads(slice.threads);
     }
-    let profile = profile::load(&slice.settings)?;
+    let mut settings = slice.settings.clone();
+    settings.set.extend(slice.placing.settings());
+    let profile = profile::load(&settings)?;
     let output = target(slice)?;
-    let part = fs::read(&slice.part).map_err(|error| io_error(&slice.part, "read", &error))?;
+    // Which part is being read or was read last, so that a fault is told of the right one.
+    let at = Cell::new(0);
+    let read = |(index, path): (usize, &PathBuf)| {
+        at.set(index);
+        fs::read(path).map_err(|error| io_error(path, "read", &error))
+    };
+    // A file that is not there shall not cost a temporary one.
+    let first = read((0, first(slice)))?;
+    let rest = slice.parts.iter().enumerate().skip(1).map(read);
     let mut out = Output::open(&output)?;
     let mut dump = slice.dump.as_deref().map(Dump::begin).transpose()?;
     let progress = progress(slice);
@@ -52,13 +63,19 @@ pub fn run(slice: &Slice) -> Done {
         }
         out.write(piece)
     };
-    let done = clayforge::slice(part, &profile, slice.until.as_deref(), &mut watch, &mut sink);
+    let parts = std::iter::once(Ok(first)).chain(rest);
+    let done = clayforge::slice_all(parts, &profile, slice.until.as_deref(), &mut watch, &mut sink);
     progress.finish_and_clear();
-    let sliced = done.map_err(|error| out.stop(report::about(&slice.part, error)))?;
+    let mut sliced = done.map_err(|error| out.stop(report::about(&slice.parts[at.get()], error)))?;
     if let (Some(dump), Some(Form::Gcode)) = (&mut dump, sliced.form) {
         dump.file(&finished)?;
     }
     out.finish()?;
+    for (path, format) in slice.parts.iter().zip(&sliced.formats) {
+        let extension = path.extension().map(|extension| extension.to_string_lossy()).unwrap_or_default();
+        format.misnamed(&extension).into_iter().for_each(|note| sliced.notes.say(note));
+    }
+    sliced.notes.said_by("import");
     if let Some(path) = &slice.report {
         put(path, report::json(&sliced, &times).as_bytes())?;
     }
@@ -69,16 +86,22 @@ pub fn run(slice: &Slice) -> Done {
     Ok(())
 }
 
+/// The part that gives the result its name.
+fn first(slice: &Slice) -> &PathBuf {
+    // The parser asks for one at least.
+    &slice.parts[0]
+}
+
 /// Where the result goes: as asked, or the part's name with the ending of what is made. What a stage in the middle
 /// makes has the stage in its name, so that it is not taken for a file that the machine can read.
 fn target(slice: &Slice) -> Result<PathBuf, Stop> {
     let last = slice.until.as_deref().and_then(stage).map(|entry| (entry.name, entry.make().forms().1));
     let output = match (&slice.output, last) {
         (Some(output), _) => output.clone(),
-        (None, None | Some((_, Form::Gcode))) => slice.part.with_extension(Form::Gcode.extension()),
-        (None, Some((name, form))) => slice.part.with_extension(format!("{name}.{}", form.extension())),
+        (None, None | Some((_, Form::Gcode))) => first(slice).with_extension(Form::Gcode.extension()),
+        (None, Some((name, form))) => first(slice).with_extension(format!("{name}.{}", form.extension())),
     };
-    if same(&output, &slice.part) {
+    if slice.parts.iter().any(|part| same(&output, part)) {
         return Err(Stop::Failed(
             Error::new("the output would take the place of the part")
                 .hint("choose another name with -o")

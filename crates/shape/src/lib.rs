@@ -8,4 +8,4 @@ pub mod plane;
 pub mod solid;
 
 pub use plane::{Point, Ring};
-pub use solid::{Bounds, Edge, Face, Point3, TriangleMesh};
+pub use solid::{Bounds, Edge, Face, Flaws, Point3, TriangleMesh};

@@ -9,6 +9,7 @@ pub use show::{schema, starter};
 
 use crate::stages::{Chain, Entry, STAGES, check_sequence};
 use crate::work::{Keys, Work};
+use import::Import;
 use skein::{Error, Field, Kind, Machine, Place, SettingError, Settings, Value};
 use std::collections::BTreeMap;
 use toml::Text;
@@ -67,6 +68,8 @@ pub struct Profile {
     pub machine: Machine,
     /// The clay.
     pub clay: Clay,
+    /// How parts are read.
+    pub import: Import,
     /// Every stage there is, in the order of the table.
     pub stations: Vec<Station>,
     /// Where each key was set last: file and place.
@@ -84,6 +87,7 @@ impl Default for Profile {
             sequence: None,
             machine: Machine::default(),
             clay: Clay::default(),
+            import: Import::default(),
             stations,
             places: BTreeMap::new(),
         }
@@ -99,6 +103,7 @@ impl Clone for Profile {
             sequence: self.sequence.clone(),
             machine: self.machine.clone(),
             clay: self.clay.clone(),
+            import: self.import.clone(),
             stations: stations
                 .map(|one| Station { entry: one.entry, active: one.active, work: one.work.copy() })
                 .collect(),
@@ -280,6 +285,7 @@ impl Profile {
         match name {
             "machine" => Some((&mut self.machine, None)),
             "clay" => Some((&mut self.clay, None)),
+            Import::NAME => Some((&mut self.import, None)),
             _ => {
                 let station = self.stations.iter_mut().find(|station| station.entry.name == name)?;
                 Some((station.work.keys_mut(), Some(&mut station.active)))
@@ -317,7 +323,7 @@ impl Profile {
         best.map(|(_, key)| key)
     }
 
-    /// Every section with its settings: the printer, the clay, the stages.
+    /// Every section with its settings: the printer, the clay, the reading of parts, the stages.
     pub(crate) fn sections(&self) -> Vec<Section> {
         let section = |name, about, keys: &dyn Keys| Section {
             name,
@@ -328,6 +334,7 @@ impl Profile {
         let mut sections = vec![
             section("machine", "The printer.", &self.machine),
             section("clay", "The clay itself.", &self.clay),
+            section(Import::NAME, "How the file of a part is read.", &self.import),
         ];
         for station in &self.stations {
             let mut one = section(station.entry.name, station.entry.about, station.work.keys());

@@ -10,22 +10,27 @@ use i_overlay::i_float::int::point::IntPoint;
 
 /// What lies inside more counter-clockwise loops than clockwise ones.
 pub fn positive(loops: &[Ring]) -> Vec<Ring> {
-    apply(loops, &[], OverlayRule::Subject)
+    apply(loops, &[], OverlayRule::Subject, FillRule::Positive)
+}
+
+/// What does not lie inside as many counter-clockwise loops as clockwise ones.
+pub fn nonzero(loops: &[Ring]) -> Vec<Ring> {
+    apply(loops, &[], OverlayRule::Subject, FillRule::NonZero)
 }
 
 /// What lies in the first region and not in the second.
 pub fn difference(region: &[Ring], without: &[Ring]) -> Vec<Ring> {
-    apply(region, without, OverlayRule::Difference)
+    apply(region, without, OverlayRule::Difference, FillRule::Positive)
 }
 
-fn apply(subject: &[Ring], clip: &[Ring], rule: OverlayRule) -> Vec<Ring> {
+fn apply(subject: &[Ring], clip: &[Ring], rule: OverlayRule, fill: FillRule) -> Vec<Ring> {
     let mut overlay: Overlay<i32> = Overlay::new(subject.iter().chain(clip).map(|ring| ring.0.len()).sum());
     for (rings, kind) in [(subject, ShapeType::Subject), (clip, ShapeType::Clip)] {
         for ring in rings {
             overlay.add_path_iter(ring.0.iter().map(|point| IntPoint::new(point.x, point.y)), kind);
         }
     }
-    let shapes = overlay.overlay(rule, FillRule::Positive);
+    let shapes = overlay.overlay(rule, fill);
     shapes
         .into_iter()
         .flatten()

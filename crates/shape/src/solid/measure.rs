@@ -1,6 +1,6 @@
 //! Size, volume and surface of a mesh.
 
-use super::{Bounds, Edge, Face, Point3, TriangleMesh};
+use super::{Bounds, Face, Point3, TriangleMesh};
 use rayon::prelude::*;
 
 impl TriangleMesh {
@@ -64,7 +64,7 @@ impl TriangleMesh {
 
     /// How many edges belong to one face only; zero for a closed surface.
     pub fn open_edges(&self) -> usize {
-        self.edges.par_iter().with_min_len(LEAST_WORK).filter(|edge| edge.faces[1] == Edge::OPEN).count()
+        self.flaws.open
     }
 
     /// Moves the part. A part within [`unit::Micron::LIMIT`] can be moved by as much in each direction.

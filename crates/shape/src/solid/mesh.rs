@@ -51,6 +51,24 @@ pub struct TriangleMesh {
     pub faces: Vec<Face>,
     /// Every side once.
     pub edges: Vec<Edge>,
+    /// What was wrong with the sides when they were paired.
+    pub flaws: Flaws,
+}
+
+/// What is wrong with the edges of a mesh: found while they are made, at no cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Flaws {
+    /// Edges with one face only.
+    pub open: usize,
+    /// Edges whose two faces run the same way along them, because one is turned over.
+    pub alike: usize,
+}
+
+impl Flaws {
+    /// Whether every edge has two faces that agree which side is out.
+    pub fn none(&self) -> bool {
+        *self == Self::default()
+    }
 }
 
 /// The box around a part.

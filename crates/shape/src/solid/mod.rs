@@ -5,5 +5,5 @@ mod mesh;
 mod section;
 mod topology;
 
-pub use mesh::{Bounds, Edge, Face, Point3, TriangleMesh};
+pub use mesh::{Bounds, Edge, Face, Flaws, Point3, TriangleMesh};
 pub use section::{Chain, Sections, planes_over_undersides};

@@ -4,7 +4,7 @@
 //! lies in one short bucket and is paired there. The vertices are shared out among the threads in ranges, and no
 //! bucket is seen by two of them, so that the result cannot depend on how many there are.
 
-use super::{Edge, Face, Point3, TriangleMesh};
+use super::{Edge, Face, Flaws, Point3, TriangleMesh};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
@@ -55,17 +55,21 @@ impl TriangleMesh {
             .collect();
 
         let mut sides = vec![0u64; triangles.len() * 3];
-        let edge_counts: Vec<usize> = ends
+        let paired: Vec<Paired> = ends
             .par_chunks_mut(width)
             .zip(shares(&mut sides, &side_counts))
             .enumerate()
             .map(|(part, (ends, sides))| {
                 file(&triangles, first(part, width), ends, sides);
-                buckets(ends, sides).map(|(_, bucket)| pair(bucket)).sum()
+                buckets(ends, sides).map(|(_, bucket)| pair(bucket)).fold(Paired::default(), Paired::plus)
             })
             .collect();
 
-        let total: usize = edge_counts.iter().sum();
+        let edge_counts: Vec<usize> = paired.iter().map(|paired| paired.edges).collect();
+        let whole = paired.into_iter().fold(Paired::default(), Paired::plus);
+        let total = whole.edges;
+        // Each edge has one side or two.
+        let flaws = Flaws { open: 2 * total - triangles.len() * 3, alike: whole.alike };
         let mut edges: Vec<Edge> = (0..total).into_par_iter().map(|_| UNKNOWN).collect();
         let edge_of: Vec<[AtomicU32; 3]> =
             (0..triangles.len()).into_par_iter().map(|_| Default::default()).collect();
@@ -95,7 +99,21 @@ impl TriangleMesh {
                 Face { vertices, edges: [a.load(Relaxed), b.load(Relaxed), c.load(Relaxed)] }
             })
             .collect();
-        Self { vertices, faces, edges }
+        Self { vertices, faces, edges, flaws }
+    }
+}
+
+/// What pairing found.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Paired {
+    edges: usize,
+    /// Pairs of sides that run the same way.
+    alike: usize,
+}
+
+impl Paired {
+    fn plus(self, other: Self) -> Self {
+        Self { edges: self.edges + other.edges, alike: self.alike + other.alike }
     }
 }
 
@@ -179,17 +197,24 @@ fn buckets<'a>(ends: &'a [u32], sides: &'a mut [u64]) -> impl Iterator<Item = (u
     })
 }
 
-/// Puts what belongs together side by side, the second of each pair flagged; returns how many edges there are.
-fn pair(bucket: &mut [u64]) -> usize {
+/// Puts what belongs together side by side, the second of each pair flagged.
+fn pair(bucket: &mut [u64]) -> Paired {
     if bucket.len() > LONG_BUCKET {
         return pair_long(bucket);
     }
-    let mut edges = 0;
+    let (mut edges, mut alike) = (0, 0);
     let mut rest = bucket;
     while let Some((side, others)) = rest.split_first_mut() {
         let key = *side >> 32;
         let find = |wanted: u64| others.iter().position(|other| other >> 32 == wanted);
-        let mate = find(key ^ 1).or_else(|| find(key));
+        let mate = match find(key ^ 1) {
+            None => {
+                let mate = find(key);
+                alike += usize::from(mate.is_some());
+                mate
+            }
+            mate => mate,
+        };
         *side &= !FLAG;
         edges += 1;
         let paired = if let Some(mate) = mate {
@@ -204,16 +229,18 @@ fn pair(bucket: &mut [u64]) -> usize {
         };
         rest = &mut others[paired..];
     }
-    edges
+    Paired { edges, alike }
 }
 
 /// The same for the hub of a large fan, where searching would cost the square of its size.
-fn pair_long(bucket: &mut [u64]) -> usize {
+fn pair_long(bucket: &mut [u64]) -> Paired {
+    let mut alike = 0;
     let mut edges: Vec<(u64, Option<u64>)> = Vec::with_capacity(bucket.len() / 2 + 1);
     bucket.sort_unstable();
     for sides in bucket.chunk_by(|one, two| one >> 33 == two >> 33) {
         let (up, down) = sides.split_at(sides.partition_point(|side| side & FLAG == 0));
         let both = up.len().min(down.len());
+        alike += (up.len() - both) / 2 + (down.len() - both) / 2;
         edges.extend(up.iter().zip(down).map(|(one, two)| {
             if corner(*one) < corner(*two) { (*one, Some(*two)) } else { (*two, Some(*one)) }
         }));
@@ -229,7 +256,7 @@ fn pair_long(bucket: &mut [u64]) -> usize {
     for (slot, side) in bucket.iter_mut().zip(paired) {
         *slot = side;
     }
-    edges.len()
+    Paired { edges: edges.len(), alike }
 }
 
 /// Writes the edges and tells the triangles their numbers.
@@ -290,6 +317,18 @@ mod tests {
         assert_eq!(named, mesh.faces.len() * 3);
         assert!(mesh.edges.is_sorted_by_key(|edge| edge.vertices[0]));
         assert!(mesh.edges.iter().all(|edge| edge.faces[0] <= edge.faces[1]));
+        let open = mesh.edges.iter().filter(|edge| edge.faces[1] == Edge::OPEN).count();
+        let alike = mesh.edges.iter().filter(|edge| runs_alike(mesh, edge)).count();
+        assert_eq!(mesh.flaws, Flaws { open, alike });
+    }
+
+    fn runs_alike(mesh: &TriangleMesh, edge: &Edge) -> bool {
+        let [a, b] = edge.vertices;
+        let runs = |face: u32| {
+            let corners = mesh.faces[face as usize].vertices;
+            (0..3).any(|turn| corners[turn] == a && corners[(turn + 1) % 3] == b)
+        };
+        edge.faces[1] != Edge::OPEN && runs(edge.faces[0]) == runs(edge.faces[1])
     }
 
     const TETRAHEDRON: [[u32; 3]; 4] = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];

@@ -1,16 +1,23 @@
 #![doc = include_str!("../README.md")]
 
 mod bridge;
+mod gaps;
 mod loops;
 mod planes;
+mod plate;
 
+use loops::{How, Layer};
+use planes::Slab;
 use rayon::prelude::*;
 use shape::solid::{Sections, planes_over_undersides};
 use shape::{Bounds, Point, Point3, Ring, TriangleMesh};
 use skein::{
-    Bead, BedShape, Choice, Direction, Error, Facts, Machine, Micron, Notes, RotatedLoopLayer, Section,
-    Settings, Slices,
+    Bead, Choice, Direction, Error, Facts, Machine, Micron, Notes, RotatedLoopLayer, Section, Settings,
+    Slices,
 };
+use std::borrow::Cow;
+
+pub use plate::Rotation;
 
 /// Cuts a part into layers.
 #[derive(Clone, Debug, Settings)]
@@ -32,7 +39,26 @@ pub struct Carve {
     /// Where the part is put before it is cut.
     #[setting(default = Place::Bed)]
     pub place: Place,
-    /// The widest gap in an open outline that is closed with a straight line.
+    /// How the part is turned before it is put there: about x, then about y, then about z, each counter-clockwise seen
+    /// from the end of the axis.
+    #[setting(default = Rotation::default(), min = -360.0, max = 360.0, unit = "degrees")]
+    pub rotate: Rotation,
+    /// How far apart several parts stand on the bed.
+    #[setting(default = 10.0, min = 0.0, max = 1000.0, unit = "mm")]
+    pub part_gap: Micron,
+    /// What the surface of the part is.
+    #[setting(default = Surface::Solid)]
+    pub surface: Surface,
+    /// How many beads thick the wall is when `surface` is "wall".
+    #[setting(default = 1, min = 1, max = 20)]
+    pub wall_beads: u32,
+    /// Whether a mesh that is open or disagrees with itself is repaired before it is cut: cracks and T-junctions closed,
+    /// duplicate faces left out, flipped ones turned over, holes closed. Each repair is reported; a sound mesh is never
+    /// changed.
+    #[setting(default = true)]
+    pub repair: bool,
+    /// The widest gap in an open outline that is closed with a straight line, and the widest hole in the mesh that is
+    /// closed although it is not flat.
     #[setting(default = 10.0, min = 0.0, max = 1000.0, unit = "mm")]
     pub close_gaps: Micron,
     /// Whether layers that span a gap are recognised, so that their infill runs across it.
@@ -47,6 +73,17 @@ pub enum Place {
     Bed,
     /// Where its file has it; only its height is brought down to the bed.
     Keep,
+    /// Just where its file has it: what lies below the bed is cut off.
+    File,
+}
+
+/// What the surface of a part is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
+pub enum Surface {
+    /// The outside of a solid.
+    Solid,
+    /// A skin without thickness: a wall is laid with the skin in its middle.
+    Wall,
 }
 
 impl Carve {
@@ -57,46 +94,104 @@ impl Carve {
     ///
     /// # Errors
     /// When there is nothing to print, or the part does not fit the machine.
-    pub fn carve(&self, mesh: &TriangleMesh, machine: &Machine, notes: &mut Notes) -> Result<Slices, Error> {
+    pub fn carve(&self, part: &TriangleMesh, machine: &Machine, notes: &mut Notes) -> Result<Slices, Error> {
+        self.carve_all(std::slice::from_ref(part), machine, notes)
+    }
+
+    /// Puts several parts side by side on the bed and cuts them.
+    ///
+    /// # Errors
+    /// When there is nothing to print, or the parts do not fit the machine.
+    pub fn carve_all(
+        &self,
+        parts: &[TriangleMesh],
+        machine: &Machine,
+        notes: &mut Notes,
+    ) -> Result<Slices, Error> {
         self.check_bead(machine, notes)?;
-        let Bounds { min, max } = mesh.bounds();
-        let slabs = planes::slabs(Micron(max.z - min.z), self.first_layer_height, self.layer_height)?;
-        let shift = self.shift(min, max, machine);
-        let bounds = Bounds { min: moved(min, shift), max: moved(max, shift) };
-        fits(&bounds, machine)?;
-        fits_round_bed(mesh, shift, machine)?;
+        let mut mesh = self.plate(parts, machine, notes)?;
+        let spot = self.spot(mesh.bounds(), machine, notes)?;
+        plate::fits(&mesh, spot.shift, &spot.bounds, machine)?;
+        let slabs = planes::slabs(Micron(spot.bounds.max.z), self.first_layer_height, self.layer_height)?;
         // The part is cut where it lies and its loops are moved: a million vertices need not be.
-        let planes: Vec<i32> = slabs.iter().map(|slab| slab.middle.0 + min.z).collect();
-        let sections = Sections::new(mesh, &planes);
-        let tolerance = (self.bead_width.um() / 100.0).min(SIMPLIFY);
-        let cut: Vec<(Vec<Ring>, Notes)> = (0..slabs.len())
+        let planes: Vec<i32> = slabs.iter().map(|slab| slab.middle.0 - spot.shift.z).collect();
+        let mut cut = self.cut(&mesh, &planes, spot.shift);
+        // Only where shells meet, or enclose nothing, does it matter which way each of them is turned.
+        let doubtful =
+            cut.iter().any(|layer| layer.crossed) || cut.iter().all(|layer| layer.loops.is_empty());
+        if self.repair
+            && doubtful
+            && let Some(turned) = self.reconsidered(&mesh, notes)
+        {
+            mesh = Cow::Owned(turned);
+            cut = self.cut(&mesh, &planes, spot.shift);
+        }
+        let slices = self.slices(&slabs, cut, spot.bounds, machine, notes)?;
+        Ok(if self.find_bridges { self.with_bridges(slices, &mesh, &planes) } else { slices })
+    }
+
+    /// The loops of every layer, where they are printed.
+    fn cut(&self, mesh: &TriangleMesh, planes: &[i32], shift: Point3) -> Vec<Layer> {
+        let sections = Sections::new(mesh, planes);
+        let bead = Bead { width: self.bead_width, height: self.layer_height, section: self.bead_section };
+        // The outermost middles of the beads lie half a width inside, the others a spacing apart.
+        let wall = self.bead_width.um() + f64::from(self.wall_beads - 1) * bead.spacing().um();
+        let how = How {
+            close_gaps: self.close_gaps.um(),
+            tolerance: (self.bead_width.um() / 100.0).min(SIMPLIFY),
+            wall: (self.surface == Surface::Wall).then_some(wall),
+        };
+        (0..planes.len())
             .into_par_iter()
             .map(|layer| {
-                let mut remarks = Notes::default();
-                let loops = loops::of_chains(
-                    sections.at(layer),
-                    self.close_gaps.um(),
-                    tolerance,
-                    layer,
-                    &mut remarks,
-                );
-                (loops.into_iter().map(|ring| slid(ring, shift)).collect(), remarks)
+                let mut cut = loops::of_chains(sections.at(layer), how, layer);
+                cut.loops = cut.loops.into_iter().map(|ring| slid(ring, shift)).collect();
+                cut
             })
-            .collect();
+            .collect()
+    }
+
+    /// The layers as a document.
+    fn slices(
+        &self,
+        slabs: &[Slab],
+        cut: Vec<Layer>,
+        bounds: Bounds,
+        machine: &Machine,
+        notes: &mut Notes,
+    ) -> Result<Slices, Error> {
+        let lost: f64 = cut.iter().map(|layer| layer.lost).sum();
+        let kept = || cut.iter().flat_map(|layer| &layer.loops).map(Ring::length).sum::<f64>();
+        if lost > 0.0 && lost > kept() {
+            let open = cut.iter().filter(|layer| layer.lost > 0.0).count();
+            return Err(Error::new(format!(
+                "the part is no solid: in {open} of {} layers the outline is open wider than can be closed",
+                cut.len()
+            ))
+            .hint(format!(
+                "{SKIN}; or set carve.close_gaps above {} mm, or repair the model in the program that made it",
+                self.close_gaps
+            )));
+        }
+        if cut.iter().all(|layer| layer.loops.is_empty()) {
+            return Err(Error::new("the part has no volume: no layer has an outline").hint(SKIN));
+        }
         let mut slices = Slices { facts: self.facts(machine), bounds, ..Slices::default() };
-        let mut empty = 0;
-        for (slab, (loops, remarks)) in slabs.iter().zip(cut) {
-            notes.append(remarks);
-            empty += usize::from(loops.is_empty());
+        for (index, (slab, layer)) in slabs.iter().zip(cut).enumerate() {
+            notes.append(layer.notes);
+            if layer.loops.is_empty() {
+                notes.layer(
+                    index,
+                    "nothing of the part is in this layer: what is above has nothing to stand on",
+                );
+            }
             let thickness = (slab.height != self.layer_height).then_some(slab.height);
-            slices.layers.push(RotatedLoopLayer { z: slab.middle, thickness, rotation: None, loops });
-        }
-        if empty == slices.layers.len() {
-            return Err(Error::new("the part has no volume: no layer has an outline")
-                .hint("a surface of one skin cannot be printed as a solid; give it a thickness"));
-        }
-        if self.find_bridges {
-            self.find_bridges(&mut slices, mesh, &planes);
+            slices.layers.push(RotatedLoopLayer {
+                z: slab.middle,
+                thickness,
+                rotation: None,
+                loops: layer.loops,
+            });
         }
         Ok(slices)
     }
@@ -144,23 +239,7 @@ impl Carve {
         }
     }
 
-    /// How far the part moves to where it is printed.
-    fn shift(&self, min: Point3, max: Point3, machine: &Machine) -> Point3 {
-        let (x, y) = match self.place {
-            Place::Keep => (0, 0),
-            Place::Bed => {
-                let (left, front) = machine.least();
-                let middle = |low: i32, high: i32| ((i64::from(low) + i64::from(high)).div_euclid(2)) as i32;
-                (
-                    left + machine.bed.x.0 / 2 - middle(min.x, max.x),
-                    front + machine.bed.y.0 / 2 - middle(min.y, max.y),
-                )
-            }
-        };
-        Point3 { x, y, z: -min.z }
-    }
-
-    fn find_bridges(&self, slices: &mut Slices, mesh: &TriangleMesh, planes: &[i32]) {
+    fn with_bridges(&self, mut slices: Slices, mesh: &TriangleMesh, planes: &[i32]) -> Slices {
         let reach = bridge::REACH * self.bead_width.um();
         let candidates = planes_over_undersides(mesh, planes, reach / self.layer_height.um());
         let directions: Vec<Option<Direction>> = (0..slices.layers.len())
@@ -176,6 +255,7 @@ impl Carve {
         for (layer, rotation) in slices.layers.iter_mut().zip(directions) {
             layer.rotation = rotation;
         }
+        slices
     }
 }
 
@@ -183,9 +263,8 @@ impl Carve {
 /// five microns, which no nozzle of a millimetre can show.
 const SIMPLIFY: f64 = 5.0;
 
-fn moved(point: Point3, by: Point3) -> Point3 {
-    Point3 { x: point.x + by.x, y: point.y + by.y, z: point.z + by.z }
-}
+/// What helps when a surface encloses nothing.
+const SKIN: &str = "a surface of one skin is printed as a wall with carve.surface = \"wall\"";
 
 fn slid(mut ring: Ring, by: Point3) -> Ring {
     for point in &mut ring.0 {
@@ -194,65 +273,7 @@ fn slid(mut ring: Ring, by: Point3) -> Ring {
     ring
 }
 
-/// Whether the part has its place on the machine.
-fn fits(bounds: &Bounds, machine: &Machine) -> Result<(), Error> {
-    let (left, front) = machine.least();
-    let size = |low: i32, high: i32| Micron(high - low);
-    let part = [
-        size(bounds.min.x, bounds.max.x),
-        size(bounds.min.y, bounds.max.y),
-        size(bounds.min.z, bounds.max.z),
-    ];
-    let bed = [machine.bed.x, machine.bed.y, machine.bed.z];
-    if part.iter().zip(bed).any(|(part, bed)| *part > bed) {
-        let [x, y, z] = part;
-        return Err(Error::new(format!(
-            "the part is {x} × {y} × {z} mm, the machine has room for {} × {} × {} mm",
-            bed[0], bed[1], bed[2]
-        ))
-        .hint("scale or turn the part, check the unit of its file, or set machine.bed"));
-    }
-    let inside = bounds.min.x >= left
-        && bounds.min.y >= front
-        && bounds.max.x <= left + machine.bed.x.0
-        && bounds.max.y <= front + machine.bed.y.0;
-    if !inside {
-        return Err(Error::new(format!(
-            "the part lies at x {}…{}, y {}…{} mm, partly beside the bed",
-            Micron(bounds.min.x),
-            Micron(bounds.max.x),
-            Micron(bounds.min.y),
-            Micron(bounds.max.y)
-        ))
-        .hint("carve.place = \"bed\" puts it on the middle of the bed"));
-    }
-    Ok(())
-}
-
-/// Whether every corner of the part lies on an elliptic bed.
-fn fits_round_bed(mesh: &TriangleMesh, shift: Point3, machine: &Machine) -> Result<(), Error> {
-    if machine.shape == BedShape::Rectangle {
-        return Ok(());
-    }
-    let (left, front) = machine.least();
-    let (half_x, half_y) = (machine.bed.x.um() / 2.0, machine.bed.y.um() / 2.0);
-    let beside = mesh.vertices.iter().find(|vertex| {
-        let x = (f64::from(vertex.x + shift.x) - f64::from(left) - half_x) / half_x;
-        let y = (f64::from(vertex.y + shift.y) - f64::from(front) - half_y) / half_y;
-        x * x + y * y > 1.0
-    });
-    match beside {
-        None => Ok(()),
-        Some(vertex) => Err(Error::new(format!(
-            "the part reaches x {} y {} mm, beside the round bed of {} × {} mm",
-            Micron(vertex.x + shift.x),
-            Micron(vertex.y + shift.y),
-            machine.bed.x,
-            machine.bed.y
-        ))
-        .hint("scale or turn the part, or set machine.bed")),
-    }
-}
-
+#[cfg(test)]
+mod exact;
 #[cfg(test)]
 mod tests;

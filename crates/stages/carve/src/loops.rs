@@ -1,88 +1,89 @@
 //! Chains of a section become closed, oriented loops.
 
-use shape::plane::{crossing, simplified, united};
+use crate::gaps::{Joined, joined};
+use shape::plane::boolean::nonzero;
+use shape::plane::{crossing, offset, simplified, united};
 use shape::solid::Chain;
 use shape::{Point, Ring};
 use skein::Notes;
 use std::cmp::Reverse;
 
-/// Closes, simplifies and orients the chains of a layer: counter-clockwise around clay, larger loops first.
-///
-/// Loops that do not cross are oriented by how many others they lie in, whatever the triangles say, so a part that is
-/// inside out slices the same. Where loops cross, shells overlap, and their union by the triangles' own sense is
-/// taken.
-pub fn of_chains(
-    chains: Vec<Chain>,
-    close_gaps: f64,
-    tolerance: f64,
-    layer: usize,
-    notes: &mut Notes,
-) -> Vec<Ring> {
-    let (closed, open): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(|chain| chain.closed);
-    let mut rings: Vec<Ring> = closed.into_iter().map(|chain| Ring(chain.points)).collect();
-    if !open.is_empty() {
-        rings.extend(joined(open, close_gaps, layer, notes));
-    }
-    let rings: Vec<Ring> = rings.iter().filter_map(|ring| simplified(ring, tolerance)).collect();
-    if crossing(&rings) {
-        let sum: i128 = rings.iter().map(Ring::area2).sum();
-        let outwards: Vec<Ring> =
-            if sum < 0 { rings.into_iter().map(Ring::reversed).collect() } else { rings };
-        notes.layer(layer, "shells of the part overlap; they are printed as one");
-        return nested(united(&outwards));
-    }
-    nested(rings)
+/// How chains become loops.
+#[derive(Clone, Copy, Debug)]
+pub struct How {
+    /// The widest gap that is closed with a straight line, in microns.
+    pub close_gaps: f64,
+    /// How near to a straight side a corner must be to be dropped, in microns.
+    pub tolerance: f64,
+    /// How thick the wall is that is laid along the chains, in microns; none when they are the outline of a solid.
+    pub wall: Option<f64>,
 }
 
-/// Joins open chains end to start, the narrowest gap first, and closes each with a straight line.
+/// The loops of a layer.
+#[derive(Default)]
+pub struct Layer {
+    /// Counter-clockwise around clay, larger first.
+    pub loops: Vec<Ring>,
+    /// Whether the outlines of shells cross.
+    pub crossed: bool,
+    /// The length in microns of the chains that could not be closed.
+    pub lost: f64,
+    /// What is to be said.
+    pub notes: Notes,
+}
+
+/// Closes, simplifies and orients the chains of a layer.
 ///
-/// A chain that would have to be closed across more than `limit` microns and more than a third of its own length is
-/// no outline of a solid; it is reported and left out.
-fn joined(mut chains: Vec<Chain>, limit: f64, layer: usize, notes: &mut Notes) -> Vec<Ring> {
-    let mut rings = Vec::new();
-    let ends = |chain: &Chain| Some((*chain.points.first()?, *chain.points.last()?));
-    chains.retain(|chain| chain.points.len() > 1);
-    chains.sort_by(|one, other| one.points.cmp(&other.points));
-    while !chains.is_empty() {
-        let mut best = (f64::INFINITY, 0, 0);
-        for (from, one) in chains.iter().enumerate() {
-            for (to, other) in chains.iter().enumerate() {
-                if let (Some((_, end)), Some((start, _))) = (ends(one), ends(other)) {
-                    let gap = end.distance(start);
-                    // Joining two is worth as much as closing one, so equal gaps are closed.
-                    if gap < best.0 || (gap == best.0 && from == to) {
-                        best = (gap, from, to);
-                    }
-                }
-            }
-        }
-        let (gap, from, to) = best;
-        let spot = chains[from].points.last().copied().unwrap_or_default();
-        let length: f64 =
-            [from, to].iter().map(|index| length_of(&chains[*index])).fold(f64::INFINITY, f64::min);
-        if gap > limit.max(length / 3.0) {
-            notes.spot(
-                layer,
-                spot,
-                "the mesh is open and the gap too wide to close; that part of the outline is left out",
-            );
-            chains.remove(from);
-            continue;
-        }
-        if from == to {
-            notes.spot(
-                layer,
-                spot,
-                "the mesh is open; the gap in the outline is closed with a straight line",
-            );
-            rings.push(Ring(chains.remove(from).points));
+/// What is clay is said by the sense of the loops: inside as many counter-clockwise loops as clockwise ones there is
+/// none, anywhere else there is. The outermost loop of an island is an outline whatever its sense, so a part that is
+/// inside out slices the same. Where loops cross, shells overlap, and their union is taken.
+pub fn of_chains(chains: Vec<Chain>, how: How, layer: usize) -> Layer {
+    let mut done = Layer::default();
+    if let Some(width) = how.wall {
+        done.loops = ordered(walls(&chains, width, how.tolerance));
+        return done;
+    }
+    let (closed, open): (Vec<Chain>, Vec<Chain>) = chains.into_iter().partition(|chain| chain.closed);
+    let mut rings: Vec<Ring> = closed.into_iter().map(|chain| Ring(chain.points)).collect();
+    let was_open = !open.is_empty();
+    if was_open {
+        let Joined { rings: joined, lost } = joined(open, how.close_gaps, layer, &mut done.notes);
+        rings.extend(joined);
+        done.lost = lost;
+    }
+    let rings: Vec<Ring> = rings.into_iter().filter_map(|ring| smooth(ring, how.tolerance)).collect();
+    done.crossed = crossing(&rings);
+    if done.crossed {
+        done.notes.layer(layer, "shells of the part overlap or touch; they are printed as one");
+    }
+    let meet = done.crossed || was_open && rings.len() > 1;
+    done.loops = if meet { ordered(nonzero(&rings)) } else { nested(rings) };
+    done
+}
+
+/// The ring simplified. One that encloses nothing is none, unless it crosses itself so that its sides cancel.
+fn smooth(ring: Ring, tolerance: f64) -> Option<Ring> {
+    simplified(&ring, tolerance)
+        .or_else(|| (ring.0.len() > 3 && crossing(std::slice::from_ref(&ring))).then_some(ring))
+}
+
+/// The room that walls take which have the chains in their middle.
+fn walls(chains: &[Chain], width: f64, tolerance: f64) -> Vec<Ring> {
+    let mut bands = Vec::new();
+    for chain in chains {
+        if chain.closed {
+            let Some(ring) = simplified(&Ring(chain.points.clone()), tolerance) else { continue };
+            let ring = [if ring.area2() < 0 { ring.reversed() } else { ring }];
+            bands.extend(offset(&ring, width / 2.0));
+            bands.extend(offset(&ring, -width / 2.0).into_iter().map(Ring::reversed));
         } else {
-            let tail = chains[to].points.clone();
-            chains[from].points.extend(tail);
-            chains.remove(to);
+            // There and back again is an outline around nothing; set out by half the width it is the wall.
+            let back = chain.points.iter().rev().skip(1).take(chain.points.len().saturating_sub(2));
+            let both: Vec<Point> = chain.points.iter().chain(back).copied().collect();
+            bands.extend(offset(&[Ring(both)], width / 2.0));
         }
     }
-    rings
+    if crossing(&bands) { united(&bands) } else { bands }
 }
 
 fn from_least(mut ring: Ring) -> Ring {
@@ -92,21 +93,23 @@ fn from_least(mut ring: Ring) -> Ring {
     ring
 }
 
-fn length_of(chain: &Chain) -> f64 {
-    chain.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
-}
-
-/// Larger first, each turned by how many others it lies in.
-///
-/// Each begins at its least point and loops of one size are sorted by it, so that the order of the triangles in the
-/// file does not matter.
-fn nested(rings: Vec<Ring>) -> Vec<Ring> {
+/// Larger first, each from its least point, those of one size sorted by it: so the order of the triangles in the file
+/// does not matter.
+fn ordered(rings: Vec<Ring>) -> Vec<Ring> {
     let mut rings: Vec<Ring> = rings.into_iter().filter(|ring| ring.area2() != 0).map(from_least).collect();
     rings.sort_by_cached_key(|ring| (Reverse(ring.area2().unsigned_abs()), ring.0.first().copied()));
+    rings
+}
+
+/// [`ordered`], and only those with clay on one side, each turned so that it is on the left. They do not touch.
+fn nested(rings: Vec<Ring>) -> Vec<Ring> {
+    let rings = ordered(rings);
     let boxes: Vec<(Point, Point)> = rings.iter().map(|ring| ring.bounds().unwrap_or_default()).collect();
-    let holes: Vec<bool> = (0..rings.len())
+    let senses: Vec<i32> = rings.iter().map(|ring| if ring.area2() > 0 { 1 } else { -1 }).collect();
+    // For each loop whether there is clay outside and inside.
+    let sides: Vec<(bool, bool)> = (0..rings.len())
         .map(|index| {
-            let Some(leftmost) = rings[index].0.iter().min() else { return false };
+            let Some(leftmost) = rings[index].0.iter().min() else { return (false, false) };
             // Only a larger loop can hold it.
             let around = (0..index).filter(|other| {
                 let (low, high) = boxes[*other];
@@ -114,9 +117,11 @@ fn nested(rings: Vec<Ring>) -> Vec<Ring> {
                     && (low.y..=high.y).contains(&leftmost.y)
                     && rings[*other].contains(*leftmost)
             });
-            around.count() % 2 == 1
+            let outside: i32 = around.map(|other| senses[other]).sum();
+            (outside != 0, outside + senses[index] != 0)
         })
         .collect();
-    let turned = |(ring, hole): (Ring, bool)| if (ring.area2() < 0) == hole { ring } else { ring.reversed() };
-    rings.into_iter().zip(holes).map(turned).collect()
+    let kept = rings.into_iter().zip(sides).filter(|(_, (outside, inside))| outside != inside);
+    kept.map(|(ring, (_, inside))| if (ring.area2() > 0) == inside { ring } else { ring.reversed() })
+        .collect()
 }

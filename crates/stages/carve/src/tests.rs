@@ -1,4 +1,5 @@
 use super::*;
+use skein::BedShape;
 
 fn mesh(vertices: &[[f64; 3]], faces: &[[u32; 3]]) -> TriangleMesh {
     let micron = |mm: f64| (mm * 1000.0).round() as i32;

@@ -3,7 +3,9 @@
 //! The original keeps a dictionary from the printed text of a vertex to its index; here it is a table of indexes,
 //! and the key is the vertex itself. A vertex has the index of its first occurrence in the file.
 
-use crate::StlError;
+use crate::Unit;
+use crate::error::{ImportError, Place};
+use rayon::prelude::*;
 use shape::{Point3, TriangleMesh};
 
 /// The vertices so far and where to find them.
@@ -22,6 +24,8 @@ const NOBODY: u32 = u32::MAX;
 /// How many corners are looked up together: enough fetches in flight to hide the way to memory, few enough for the
 /// first-level cache.
 pub(crate) const BATCH: usize = 96;
+/// Work in pieces pays from this many facets in a piece.
+pub(crate) const LEAST_WORK: usize = 16_384;
 
 impl Welder {
     /// A table for the vertices of so many triangles; a closed mesh has half as many vertices.
@@ -136,43 +140,86 @@ pub(crate) fn collapsed([a, b, c]: [u32; 3]) -> bool {
     a == b || b == c || c == a
 }
 
-/// Leaves the collapsed facets out, and with them the vertices nobody else uses: they would count in the bounds.
-pub(crate) fn mesh(
-    mut vertices: Vec<Point3>,
-    mut triangles: Vec<[u32; 3]>,
-    degenerate: usize,
-) -> Result<TriangleMesh, StlError> {
-    let facets = triangles.len();
-    if degenerate > 0 {
-        triangles.retain(|triangle| !collapsed(*triangle));
-        let mut indices = vec![NOBODY; vertices.len()];
-        for vertex in triangles.as_flattened() {
-            if let Some(index) = indices.get_mut(*vertex as usize) {
-                *index = 0;
+/// Facets by the indices of their corners, on their way to a mesh.
+pub(crate) struct Facets {
+    /// Every point once.
+    pub(crate) vertices: Vec<Point3>,
+    pub(crate) triangles: Vec<[u32; 3]>,
+}
+
+impl Facets {
+    /// Welds the vertices of a file that numbers them itself: what lies in the same micron is one.
+    ///
+    /// Every corner must be the index of a vertex.
+    pub(crate) fn welded(vertices: &[Point3], mut triangles: Vec<[u32; 3]>) -> Self {
+        let mut welder = Welder::new(vertices.len());
+        let mut indices = vec![0; vertices.len()];
+        welder.indices(vertices, &mut indices);
+        triangles.par_chunks_mut(LEAST_WORK).for_each(|triangles| {
+            for vertex in triangles.as_flattened_mut() {
+                *vertex = indices.get(*vertex as usize).copied().unwrap_or_default();
             }
-        }
-        for (kept, index) in (0u32..).zip(indices.iter_mut().filter(|index| **index != NOBODY)) {
-            *index = kept;
-        }
-        for vertex in triangles.as_flattened_mut() {
-            *vertex = indices.get(*vertex as usize).copied().unwrap_or(NOBODY);
-        }
-        let mut index = indices.iter();
-        vertices.retain(|_| index.next() != Some(&NOBODY));
-    }
-    let has_area = |triangle: &[u32; 3]| {
-        let [Some(a), Some(b), Some(c)] = triangle.map(|vertex| vertices.get(vertex as usize)) else {
-            return false;
-        };
-        let [[b_x, b_y, b_z], [c_x, c_y, c_z]] = [b, c].map(|to| {
-            [(a.x, to.x), (a.y, to.y), (a.z, to.z)].map(|(from, to)| i128::from(to) - i128::from(from))
         });
-        [b_y * c_z - b_z * c_y, b_z * c_x - b_x * c_z, b_x * c_y - b_y * c_x] != [0; 3]
-    };
-    if !triangles.iter().any(has_area) {
-        return Err(StlError::no_area(facets));
+        Self { vertices: welder.vertices, triangles }
     }
-    Ok(TriangleMesh::from_triangles(vertices, triangles))
+
+    /// The mesh without the facets that collapse, and how many these are. Vertices are numbered by their first use and
+    /// those that nobody uses are left out: they would count in the bounds.
+    ///
+    /// # Errors
+    /// When there is no facet, or none has an area.
+    pub(crate) fn mesh(self, unit: Unit) -> Result<(TriangleMesh, usize), ImportError> {
+        let Self { vertices, mut triangles } = self;
+        let facets = triangles.len();
+        if facets == 0 {
+            return Err(ImportError::no_facets(Place::File));
+        }
+        triangles.retain(|triangle| !collapsed(*triangle));
+        let vertices = renumbered(vertices, &mut triangles);
+        if !triangles.iter().any(|triangle| has_area(&vertices, triangle)) {
+            return Err(ImportError::no_area(facets, unit));
+        }
+        let degenerate = facets - triangles.len();
+        Ok((TriangleMesh::from_triangles(vertices, triangles), degenerate))
+    }
+}
+
+/// The vertices in the order of their first use. Where they are in it already, nothing moves.
+fn renumbered(vertices: Vec<Point3>, triangles: &mut [[u32; 3]]) -> Vec<Point3> {
+    let mut most = 0;
+    let in_order = triangles.as_flattened().iter().all(|vertex| {
+        let next = *vertex <= most;
+        most = most.max(vertex.saturating_add(1));
+        next
+    });
+    if in_order && most as usize == vertices.len() {
+        return vertices;
+    }
+    let mut indices = vec![NOBODY; vertices.len()];
+    let mut used = Vec::with_capacity(vertices.len());
+    for vertex in triangles.as_flattened_mut() {
+        let (Some(index), Some(point)) = (indices.get_mut(*vertex as usize), vertices.get(*vertex as usize))
+        else {
+            continue;
+        };
+        if *index == NOBODY {
+            *index = used.len() as u32;
+            used.push(*point);
+        }
+        *vertex = *index;
+    }
+    used
+}
+
+/// Whether a triangle is more than a line.
+fn has_area(vertices: &[Point3], triangle: &[u32; 3]) -> bool {
+    let [Some(a), Some(b), Some(c)] = triangle.map(|vertex| vertices.get(vertex as usize)) else {
+        return false;
+    };
+    let [[b_x, b_y, b_z], [c_x, c_y, c_z]] = [b, c].map(|to| {
+        [(a.x, to.x), (a.y, to.y), (a.z, to.z)].map(|(from, to)| i128::from(to) - i128::from(from))
+    });
+    [b_y * c_z - b_z * c_y, b_z * c_x - b_x * c_z, b_x * c_y - b_y * c_x] != [0; 3]
 }
 
 #[cfg(test)]
