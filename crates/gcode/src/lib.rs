@@ -7,29 +7,37 @@
 //! Nothing is allocated: one [`Line`] is read again and again.
 //!
 //! ```
-//! use gcode::{Command, Line, lines};
+//! use gcode::{Code, Line, lines};
 //!
 //! let mut line = Line::default();
 //! let mut length = 0.0;
 //! for text in lines(b"; a cup\nN2 g01 x10 E.5*71\nG1X20E1.5") {
 //!     line.read(text);
-//!     if line.command == Some(Command::g(1)) {
+//!     if line.command == Some(Code::g(1)) {
 //!         length += line.words.get(b'E').unwrap_or(0.0);
 //!     }
 //! }
 //! assert_eq!(length, 2.0);
 //! ```
 
+mod command;
+mod diagnostic;
+mod given;
 mod line;
 mod lines;
 mod number;
+mod parameters;
 mod plain;
 mod short;
 mod token;
 mod word;
 
+pub use command::{By, Centre, Command, CommandKind, Plane, Span, Spin, Step, Target, Turn};
+pub use diagnostic::{Diagnostic, Diagnostics, Problem};
+pub use given::Given;
 pub use line::{Kind, Line};
 pub use lines::{Lines, find_byte, lines, without_bom, without_cr};
 pub use number::read_number;
+pub use parameters::{LengthUnit, MM_PER_INCH, Parameters};
 pub use token::{Token, Tokens};
-pub use word::{Command, Words};
+pub use word::{Code, Words};

@@ -10,7 +10,7 @@
 use crate::line::{Kind, Line};
 use crate::number::read_number;
 use crate::short::short;
-use crate::word::Command;
+use crate::word::Code;
 
 impl Line {
     /// Becomes the first line of `text` if that is plain and has an end; returns where the next line begins. Otherwise
@@ -27,7 +27,7 @@ impl Line {
     pub fn read_plain(&mut self, text: &[u8]) -> Option<usize> {
         let [b'G', digit @ b'0'..=b'9', b' ', ..] = text else { return None };
         self.kind = Kind::Code;
-        self.command = Some(Command::g(u16::from(digit - b'0')));
+        self.command = Some(Code::g(u16::from(digit - b'0')));
         self.unreadable = false;
         self.words.clear();
         self.read_short_words(text, 3)

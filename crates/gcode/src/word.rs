@@ -1,15 +1,15 @@
-//! Commands and words.
+//! Codes, such as `G1`, and words, such as `X5`.
 
 /// What a line orders, such as `G1` or `M104`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Command {
+pub struct Code {
     /// In upper case.
     pub letter: u8,
     /// In thousandths, so that `G91.1` is not `G91` and `G1.0` is `G1`.
     pub thousandths: i32,
 }
 
-impl Command {
+impl Code {
     /// The command of a letter and a number. Nothing if the number has more than three decimals or is out of reach: no
     /// machine has such a command.
     #[inline]
