@@ -35,7 +35,7 @@ pub enum Problem {
     /// The checksum is not that of the line.
     WrongChecksum {
         /// What stands behind the `*`.
-        given: u8,
+        given: u32,
         /// What it should be.
         computed: u8,
     },

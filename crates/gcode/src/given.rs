@@ -48,12 +48,6 @@ impl Given {
     pub fn is_none(self) -> bool {
         self.0.is_nan()
     }
-
-    /// `factor` times the value.
-    #[inline]
-    pub(crate) fn scaled(self, factor: f64) -> Self {
-        Self(self.0 * factor)
-    }
 }
 
 impl Default for Given {

@@ -22,11 +22,13 @@
 
 mod command;
 mod diagnostic;
+mod flavor;
 mod given;
 mod line;
 mod lines;
 mod number;
 mod parameters;
+mod parse;
 mod plain;
 mod short;
 mod token;
@@ -34,10 +36,15 @@ mod word;
 
 pub use command::{By, Centre, Command, CommandKind, Plane, Span, Spin, Step, Target, Turn};
 pub use diagnostic::{Diagnostic, Diagnostics, Problem};
+pub use flavor::{
+    AffectsE, ArcTurns, Choice, DwellUnit, Extruder, Flavor, FlavorError, Limit, LimitValue, Quantity,
+    Reason, Variables,
+};
 pub use given::Given;
 pub use line::{Kind, Line};
 pub use lines::{Lines, find_byte, lines, without_bom, without_cr};
 pub use number::read_number;
 pub use parameters::{LengthUnit, MM_PER_INCH, Parameters};
+pub use parse::{Comments, Parser, ReadOptions, whole_lines};
 pub use token::{Token, Tokens};
 pub use word::{Code, Words};

@@ -66,11 +66,13 @@ impl<'a> Parameters<'a> {
         self.iter().any(|(found, _)| found == letter)
     }
 
-    /// The letters in upper case with their numbers, in the order in which they are written. `X5`, `X 5` and `X=5` are
-    /// the same.
+    /// The letters in upper case with their numbers, in the order in which they are written, without G and M: those are
+    /// codes of their own. `X5`, `X 5` and `X=5` are the same.
     pub fn iter(&self) -> impl Iterator<Item = (u8, Option<f64>)> + 'a {
         let text = self.text;
-        Tokens::new(text).filter_map(move |token| match token {
+        let words =
+            Tokens::new(text).filter(|token| !matches!(token, Token::Word { letter: b'G' | b'M', .. }));
+        words.filter_map(move |token| match token {
             Token::Word { letter, value: Some(value), .. } => Some((letter, Some(value))),
             Token::Word { letter, value: None, end, .. } => Some((letter, assigned(text, end))),
             _ => None,

@@ -1,7 +1,7 @@
 //! Reads the lines that nearly all of a file is made of, straight from the text.
 //!
-//! A plain line is a `G`, one digit, and words of a letter in upper case and a number, with one blank before each and a
-//! line end behind the last: `G1 X12.5 Y3 E.25`. There is nothing to skip in it and nothing to remember, so it is read
+//! A plain line is a `G`, one digit, and words of a letter in upper case and a number, no letter twice, with one blank
+//! before each and a line end behind the last: `G1 X12.5 Y3 E.25`. There is nothing to skip in it and nothing to remember, so it is read
 //! in one pass that finds the line end by coming to it, which costs a third of finding the end first and then asking of
 //! every piece what it is.
 //!
@@ -71,6 +71,9 @@ impl Line {
                 return None;
             }
             let (value, end) = read_number(text, index.wrapping_add(1))?;
+            if self.words.has(letter) {
+                return None;
+            }
             self.words.put(letter, value);
             index = end.wrapping_add(1);
             match text.get(end)? {
