@@ -88,11 +88,12 @@ named!(
 );
 named!(
     Variables,
-    "none, rs274, fanuc or siemens",
+    "none, rs274, fanuc, siemens or reprap",
     "none" = Variables::None,
     "rs274" = Variables::Rs274,
     "fanuc" = Variables::Fanuc,
-    "siemens" = Variables::Siemens
+    "siemens" = Variables::Siemens,
+    "reprap" = Variables::RepRap
 );
 
 impl Entry for Cow<'static, str> {

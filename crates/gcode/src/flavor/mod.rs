@@ -67,6 +67,8 @@ pub enum Variables {
     Fanuc,
     /// `R1`, `( )`, `GOTOF`, `WHILE`, `FOR`, labels.
     Siemens,
+    /// `var`, `if`, `while`, `{ }`: known, and told, but not run.
+    RepRap,
 }
 
 /// What the P word of an arc counts.

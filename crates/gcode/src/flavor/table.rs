@@ -76,6 +76,7 @@ fn rep_rap_firmware() -> Flavor {
         g90_affects_e: AffectsE::Never,
         arc_turns: ArcTurns::None,
         text_codes: Cow::Borrowed(&[160, 230, 280, 300, 320, 1170]),
+        variables: Variables::RepRap,
         limits: Cow::Borrowed(
             const {
                 &[
@@ -140,6 +141,7 @@ fn grbl() -> Flavor {
         extruder: Extruder::None,
         arc_turns: ArcTurns::None,
         feed_modes: true,
+        checksum: false,
         text_codes: Cow::Borrowed(&[]),
         limits: Cow::Borrowed(
             const {
@@ -206,7 +208,6 @@ fn siemens() -> Flavor {
         bead_off: Cow::Borrowed("WHEN TRUE DO EXTR_END=2.0"),
         arc_radius: Cow::Borrowed("CR"),
         feed_modes: true,
-        checksum: false,
         purge_code: 0,
         variables: Variables::Siemens,
         limits: Cow::Borrowed(&[]),

@@ -141,6 +141,12 @@ impl<'f> Parser<'f> {
         self
     }
 
+    /// The same parser, which knows of these problems already.
+    pub(crate) fn with_diagnostics(mut self, diagnostics: Diagnostics) -> Self {
+        self.diagnostics = diagnostics;
+        self
+    }
+
     /// What is wrong with what was read so far.
     pub fn diagnostics(&self) -> &Diagnostics {
         &self.diagnostics
