@@ -6,7 +6,6 @@
 use crate::error::Error;
 use crate::operation::AdditiveOperation;
 use crate::part::CHORD_TOLERANCE;
-use crate::process::Action;
 use std::io::Write;
 
 /// The field of a row besides time and place.
@@ -84,10 +83,11 @@ impl EventSeries {
     /// The event series of an operation.
     pub fn new(operation: &AdditiveOperation<'_>, options: &EventOptions) -> Self {
         let process = operation.process_data();
-        let mut series = Self::default();
-        series.fields = options.fields.iter().map(|field| (field.abaqus_type(), Vec::new())).collect();
+        let fields = options.fields.iter().map(|field| (field.abaqus_type(), Vec::new())).collect();
+        let mut series = Self { fields, ..Self::default() };
         let values = |index: usize| -> Vec<f64> {
-            let on = matches!(process.action[index], Action::Deposit | Action::Purge);
+            // A prime counts, as in pyGCodeDecode: E grows.
+            let on = operation.delta_volume()[index] > 0.0;
             let value = |field: &EventField| match field {
                 _ if !on => 0.0,
                 EventField::Active => 1.0,
@@ -99,8 +99,8 @@ impl EventSeries {
         let mut row = |time: f64, at: [f64; 3], values: &[f64]| {
             let time = time + options.time_offset;
             let at = at.map(|side| side * options.unit);
-            // Of two rows at one time the later counts.
-            if series.time.last().is_some_and(|&last| last >= time) {
+            // Of two rows at one time the later counts; what is nearer than the sums are exact is one time.
+            if series.time.last().is_some_and(|&last| last >= time - 1e-13 * time.abs().max(1.0)) {
                 if let Some(last) = series.at.last_mut() {
                     *last = at;
                 }
@@ -171,9 +171,9 @@ impl EventSeries {
         for (name, column) in &self.fields {
             let _ = writeln!(text, "*EVENT SERIES TYPE, NAME=\"{name}\", FIELDS=1");
             let _ = writeln!(text, "*EVENT SERIES, NAME=\"{name}_1\", TYPE=\"{name}\"");
-            for index in 0..self.len() {
-                let [x, y, z] = self.at[index].map(tidy);
-                let _ = writeln!(text, "{},{x},{y},{z},{}", self.time[index], column[index]);
+            for ((time, at), value) in self.time.iter().zip(&self.at).zip(column) {
+                let [x, y, z] = at.map(tidy);
+                let _ = writeln!(text, "{time},{x},{y},{z},{value}");
             }
         }
         text

@@ -11,6 +11,8 @@ mod part;
 mod process;
 mod program;
 mod statistics;
+mod table;
+mod vtk;
 
 pub use arc::{Arc, ArcFault};
 pub use bead::{Bead, Shape};
@@ -23,3 +25,5 @@ pub use part::{AdditivePart, CHORD_TOLERANCE, Layer, Path, Segment, SegmentKind}
 pub use process::{Action, Moment, ProcessData, ProcessRow};
 pub use program::Program;
 pub use statistics::{Bounds, Statistics};
+pub use table::{Column, Table};
+pub use vtk::{CellData, PolyData};

@@ -22,9 +22,9 @@ impl Bounds {
     /// Grows until it holds the point.
     #[inline]
     pub fn include(&mut self, at: [f64; 3]) {
-        for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(at[axis]);
-            self.max[axis] = self.max[axis].max(at[axis]);
+        for (axis, value) in at.into_iter().enumerate() {
+            self.min[axis] = self.min[axis].min(value);
+            self.max[axis] = self.max[axis].max(value);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use super::feed::{Feed, FeedMode};
 use crate::arc::{Arc, ArcFault};
-use gcode::{AffectsE, By, Command, Given, Parameters, Target, Turn};
+use gcode::{AffectsE, By, Command, Given, Parameters, Spin, Target, Turn};
 use std::borrow::Cow;
 
 /// What `G92` without an axis does.
@@ -134,6 +134,7 @@ impl State {
                     self.feed.spindle = deposit.abs();
                 }
             }
+            Command::Mill { spin: Spin::Off, .. } => self.feed.spindle = 0.0,
             Command::Mill { speed, .. } => self.feed.spindle = speed.or(self.feed.spindle),
             Command::MoveMill { to, feed, speed, .. } => {
                 self.feed.spindle = speed;
@@ -253,7 +254,7 @@ impl State {
     fn set_origin(&mut self, words: &Parameters<'_>, say: Say<'_>) {
         let Some(kind) = words.get(b'L').filter(|&kind| kind == 2.0 || kind == 20.0) else { return };
         let system = match words.get(b'P') {
-            Some(system) if system >= 1.0 && system <= 9.0 && system.fract() == 0.0 => system as usize,
+            Some(system) if (1.0..=9.0).contains(&system) && system.fract() == 0.0 => system as usize,
             None | Some(0.0) => self.system.max(1),
             Some(system) => return say(Cow::Owned(format!("G10 for coordinate system {system}"))),
         };

@@ -47,28 +47,35 @@ fn layer_step(process: &ProcessData) -> Option<f64> {
     steps.get(steps.len() / 2).copied().map(rounded)
 }
 
-/// What the first turn that climbs rises.
+/// What the first turn that climbs rises: from its start to where it comes nearest to being above it.
 fn turn_rise(process: &ProcessData) -> Option<f64> {
-    let (mut turned, mut risen) = (0.0, 0.0);
+    let mut turned = 0.0;
     let mut before: Option<[f64; 3]> = None;
+    let mut first: Option<[f64; 3]> = None;
+    let mut nearest: Option<(f64, f64)> = None;
     for index in deposits(process) {
         let (from, to) = (process.start(index), process.end(index));
         let by = [to[0] - from[0], to[1] - from[1], to[2] - from[2]];
-        let swept = match (process.arc(index), before) {
+        if by[2] <= 0.0 && first.is_none() {
+            continue;
+        }
+        let start = *first.get_or_insert(from);
+        turned += match (process.arc(index), before) {
             (Some(arc), _) => arc.sweep,
             (None, Some(last)) => {
                 libm::atan2(last[0] * by[1] - last[1] * by[0], last[0] * by[0] + last[1] * by[1])
             }
             (None, None) => 0.0,
         };
-        if by[2] > 0.0 {
-            turned += swept;
-            risen += by[2];
+        // A wall with waves turns back and forth; it is round again about when it has turned once.
+        if turned.abs() > 1.25 * TAU {
+            break;
         }
-        if turned.abs() >= TAU * (1.0 - 1e-6) {
-            return (risen >= LEAST).then(|| rounded(risen));
+        let apart = libm::hypot(to[0] - start[0], to[1] - start[1]);
+        if turned.abs() > 0.75 * TAU && nearest.is_none_or(|(least, _)| apart < least) {
+            nearest = Some((apart, to[2] - start[2]));
         }
         before = (by[0] != 0.0 || by[1] != 0.0).then_some(by);
     }
-    None
+    nearest.map(|(_, rise)| rounded(rise)).filter(|&rise| rise >= LEAST)
 }

@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-9;
 /// does, a layer is one height of a bead, counted from the lowest deposit.
 pub(super) struct Partition {
     /// Layers of the steps; what deposits nothing has that of the next deposit.
-    layers: Vec<u32>,
+    pub(super) layers: Vec<u32>,
     pub(super) count: usize,
 }
 

@@ -122,6 +122,7 @@ pub struct AdditivePart<'o, 'a> {
     layers: Vec<Layer>,
     /// Rows of the summary, layer by layer.
     by_layer: Vec<usize>,
+    step_layers: Vec<u32>,
     deposition_length: f64,
 }
 
@@ -154,7 +155,8 @@ impl<'o, 'a> AdditivePart<'o, 'a> {
         let by_layer = layers::by_layer(&segments, partition.count);
         let deposition = segments.iter().filter(|segment| segment.kind == SegmentKind::Deposition);
         let deposition_length = deposition.map(|segment| segment.length).sum();
-        Ok(Self { operation, bead, normal, segments, layers, by_layer, deposition_length })
+        let step_layers = partition.layers;
+        Ok(Self { operation, bead, normal, segments, layers, by_layer, step_layers, deposition_length })
     }
 
     /// The operation that makes it.
@@ -192,6 +194,11 @@ impl<'o, 'a> AdditivePart<'o, 'a> {
         let start = self.by_layer.partition_point(|&row| self.segments[row].layer < index);
         let rows = self.by_layer.iter().skip(start).map(|&row| &self.segments[row]);
         rows.take_while(move |segment| segment.layer == index)
+    }
+
+    /// The layer of every entry of the process data.
+    pub fn step_layers(&self) -> &[u32] {
+        &self.step_layers
     }
 
     /// The way of all deposits, mm.
