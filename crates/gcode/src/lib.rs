@@ -22,6 +22,7 @@
 
 mod command;
 mod diagnostic;
+mod export;
 mod flavor;
 mod given;
 mod line;
@@ -37,6 +38,7 @@ mod word;
 
 pub use command::{By, Centre, Command, CommandKind, Plane, Span, Spin, Step, Target, Turn};
 pub use diagnostic::{Diagnostic, Diagnostics, Problem};
+pub use export::{Exporter, GcodeExporter, Row};
 pub use flavor::{
     AffectsE, ArcTurns, Choice, DwellUnit, Extruder, Flavor, FlavorError, Limit, LimitValue, Quantity,
     Reason, Variables,
