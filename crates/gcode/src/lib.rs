@@ -33,6 +33,7 @@ mod parse;
 mod plain;
 mod preprocess;
 mod short;
+mod sniff;
 mod token;
 mod word;
 
@@ -50,5 +51,6 @@ pub use number::read_number;
 pub use parameters::{LengthUnit, MM_PER_INCH, Parameters};
 pub use parse::{Comments, Parser, ReadOptions, whole_lines};
 pub use preprocess::{Limits, Preprocessor, Program, preprocess};
+pub use sniff::{NotText, check_text};
 pub use token::{Token, Tokens};
 pub use word::{Code, Words};
