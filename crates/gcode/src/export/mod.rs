@@ -400,12 +400,13 @@ impl<'f> GcodeExporter<'f> {
     fn words(&mut self, words: Parameters<'_>, lengths: bool, out: &mut Vec<u8>) {
         let is_code = |token: Token| matches!(token, Token::Word { letter: b'G' | b'M', .. });
         let rescaled = lengths && words.unit != self.unit;
-        if !rescaled && !(lengths && Tokens::new(words.text).any(is_code)) {
-            if !words.text.is_empty() {
-                out.push(b' ');
-                out.extend_from_slice(words.text);
-            }
+        if words.text.is_empty() {
             return;
+        }
+        // As it was written, unless its lengths have another unit or the codes of other commands stand in it.
+        if !(rescaled || lengths && Tokens::new(words.text).any(is_code)) {
+            out.push(b' ');
+            return out.extend_from_slice(words.text);
         }
         for (letter, value) in words.iter() {
             match value {

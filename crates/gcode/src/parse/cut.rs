@@ -26,11 +26,13 @@ pub(crate) fn behind_stray_cr(rest: &[u8]) -> &[u8] {
 fn find_end(text: &[u8]) -> Option<usize> {
     const ONES: u64 = 0x0101_0101_0101_0101;
     const HIGHS: u64 = ONES << 7;
+    const LINE_FEEDS: u64 = ONES * b'\n' as u64;
+    const RETURNS: u64 = ONES * b'\r' as u64;
     let zeros = |bytes: u64| bytes.wrapping_sub(ONES) & !bytes & HIGHS;
     let (eights, tail) = text.as_chunks::<8>();
     for (number, eight) in eights.iter().enumerate() {
         let bytes = u64::from_le_bytes(*eight);
-        let ends = zeros(bytes ^ ONES * b'\n' as u64) | zeros(bytes ^ ONES * b'\r' as u64);
+        let ends = zeros(bytes ^ LINE_FEEDS) | zeros(bytes ^ RETURNS);
         if ends != 0 {
             return Some(number * 8 + ends.trailing_zeros() as usize / 8);
         }

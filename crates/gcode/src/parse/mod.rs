@@ -173,19 +173,32 @@ impl<'f> Parser<'f> {
     }
 
     fn run<'a>(&mut self, text: &'a [u8], strict: bool, mut visit: impl FnMut(Step<'a>)) {
+        // Apart from the parser, which reads it and changes.
+        let mut plain = std::mem::take(&mut self.plain);
+        self.run_lines(text, strict, &mut plain, &mut visit);
+        self.plain = plain;
+    }
+
+    fn run_lines<'a>(
+        &mut self,
+        text: &'a [u8],
+        strict: bool,
+        plain: &mut Line,
+        visit: &mut impl FnMut(Step<'a>),
+    ) {
         let mut rest = if self.count == 0 { without_bom(text) } else { text };
         while !rest.is_empty() {
             if !self.next_line() {
                 return;
             }
-            rest = match self.read_plain(rest) {
+            rest = match self.read_plain(rest, plain) {
                 Some((command, behind)) => {
                     visit(Step { line: self.line, command });
                     behind
                 }
                 None => {
                     let (line, behind) = cut_line(rest);
-                    self.read_any(line, &mut visit);
+                    self.read_any(line, visit);
                     behind
                 }
             };
@@ -215,18 +228,15 @@ impl<'f> Parser<'f> {
 
     /// The command of the first line of `text`, if that is a plain move, and what is behind it.
     #[inline(always)]
-    fn read_plain<'a>(&mut self, text: &'a [u8]) -> Option<(Command<'a>, &'a [u8])> {
-        let length = self.plain.read_plain(text)?;
-        let tenths = u16::try_from(self.plain.command?.thousandths / 100).ok()?;
+    fn read_plain<'a>(&mut self, text: &'a [u8], plain: &mut Line) -> Option<(Command<'a>, &'a [u8])> {
+        let length = plain.read_plain(text)?;
+        let tenths = u16::try_from(plain.command?.thousandths / 100).ok()?;
         let motion = Motion::of(tenths)?;
-        if self.plain.words.letters() & !PLAIN != 0 || self.tape_marks > 1 {
+        if plain.words.letters() & !PLAIN != 0 || self.tape_marks > 1 {
             return None;
         }
         let (line, behind) = text.split_at_checked(length)?;
-        let words = std::mem::take(&mut self.plain.words);
-        let command = self.motion_command(motion, &words, Manner { line, ..Manner::default() });
-        self.plain.words = words;
-        let command = command?;
+        let command = self.motion_command(motion, &plain.words, Manner { line, ..Manner::default() })?;
         self.motion = Some(motion);
         Some((command, behind_stray_cr(behind)))
     }

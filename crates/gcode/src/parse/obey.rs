@@ -337,11 +337,11 @@ impl Parser<'_> {
             910 => return Command::IncrementalPosition,
             901 => self.absolute_centres = true,
             911 => self.absolute_centres = false,
-            540..=590 if code.tenths % 10 == 0 => {
+            540..=590 if code.tenths.is_multiple_of(10) => {
                 return Command::WorkCoordinates { system: code.tenths / 10 - 53 };
             }
             591..=593 => return Command::WorkCoordinates { system: code.tenths - 584 },
-            5000..=5990 if self.flavor.named_words && code.tenths % 10 == 0 => {
+            5000..=5990 if self.flavor.named_words && code.tenths.is_multiple_of(10) => {
                 return Command::WorkCoordinates { system: code.tenths / 10 - 500 };
             }
             930 | 940 | 950 if self.flavor.feed_modes => {
