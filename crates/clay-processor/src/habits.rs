@@ -1,6 +1,6 @@
 //! Says why the two models differ.
 
-use gcode::{Command, Line};
+use gcode::{Code, Line};
 
 use crate::letter::{Letter, Movement};
 use crate::machine::Machine;
@@ -60,7 +60,7 @@ impl Habits {
             match class {
                 Class::Flat => self.repeated_z.add(index),
                 Class::Travel | Class::DiagonalTravel | Class::Vertical
-                    if line.command == Some(Command::g(0)) =>
+                    if line.command == Some(Code::g(0)) =>
                 {
                     self.rapid_z.add(index);
                 }
@@ -73,7 +73,7 @@ impl Habits {
                 self.inches.add(index);
             }
         }
-        let is_arc = line.command == Some(Command::g(2)) || line.command == Some(Command::g(3));
+        let is_arc = line.command == Some(Code::g(2)) || line.command == Some(Code::g(3));
         if is_arc && class != Class::Still {
             self.arcs.add(index);
         }
@@ -104,7 +104,7 @@ impl Habits {
     /// Watches a line that moves nothing.
     #[inline]
     pub(crate) fn watch_still(&mut self, index: usize, line: &Line) {
-        if line.command == Some(Command::g(92)) && line.words.has(b'Z') {
+        if line.command == Some(Code::g(92)) && line.words.has(b'Z') {
             self.shifted_z.add(index);
         }
     }

@@ -1,6 +1,6 @@
 //! The letter model: what the words say.
 
-use gcode::{Command, Kind, Line};
+use gcode::{Code, Kind, Line};
 
 use crate::habits::Count;
 use crate::report::{Diagonal, Horizontal, Model, Run, Vertical};
@@ -56,7 +56,7 @@ impl Letter {
             return None;
         }
         match line.command {
-            Some(Command { letter: b'M', .. }) => None,
+            Some(Code { letter: b'M', .. }) => None,
             Some(G0) => {
                 self.end_spiral();
                 self.movement(index, line)
@@ -183,7 +183,7 @@ impl Letter {
     }
 }
 
-const G0: Command = Command::g(0);
-const G1: Command = Command::g(1);
-const G2: Command = Command::g(2);
-const G3: Command = Command::g(3);
+const G0: Code = Code::g(0);
+const G1: Code = Code::g(1);
+const G2: Code = Code::g(2);
+const G3: Code = Code::g(3);

@@ -1,6 +1,6 @@
 //! The printer's state: units, modes, origin and position; turns lines into moves.
 
-use gcode::{Command, Line, Words};
+use gcode::{Code, Line, Words};
 
 use crate::arc::Arc;
 
@@ -168,7 +168,7 @@ impl Motion {
         self.scale != 1.0
     }
 
-    fn set(&mut self, command: Command, words: &Words) -> Action {
+    fn set(&mut self, command: Code, words: &Words) -> Action {
         match command {
             G20 => self.scale = MM_PER_INCH,
             G21 => self.scale = 1.0,
@@ -338,15 +338,15 @@ pub(crate) enum Turn {
     Counter,
 }
 
-const G0: Command = Command::g(0);
-const G1: Command = Command::g(1);
-const G2: Command = Command::g(2);
-const G3: Command = Command::g(3);
-const G20: Command = Command::g(20);
-const G21: Command = Command::g(21);
-const G28: Command = Command::g(28);
-const G90: Command = Command::g(90);
-const G91: Command = Command::g(91);
-const G92: Command = Command::g(92);
-const M82: Command = Command::m(82);
-const M83: Command = Command::m(83);
+const G0: Code = Code::g(0);
+const G1: Code = Code::g(1);
+const G2: Code = Code::g(2);
+const G3: Code = Code::g(3);
+const G20: Code = Code::g(20);
+const G21: Code = Code::g(21);
+const G28: Code = Code::g(28);
+const G90: Code = Code::g(90);
+const G91: Code = Code::g(91);
+const G92: Code = Code::g(92);
+const M82: Code = Code::m(82);
+const M83: Code = Code::m(83);

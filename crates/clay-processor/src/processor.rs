@@ -1,6 +1,6 @@
 //! Feeds both models line by line.
 
-use gcode::{Command, Kind, Line, find_byte, without_bom, without_cr};
+use gcode::{Code, Kind, Line, find_byte, without_bom, without_cr};
 
 use crate::comments::Comments;
 use crate::habits::Habits;
@@ -195,7 +195,7 @@ impl Processor {
 #[inline(always)]
 fn is_stroke(line: &Line) -> bool {
     let words = &line.words;
-    line.command == Some(Command::g(1))
+    line.command == Some(Code::g(1))
         && words.has(b'E')
         && !words.has(b'Z')
         && !words.has_bare()

@@ -1,7 +1,7 @@
 //! Another base under a spiral.
 
 use clay_processor::process;
-use gcode::{Command, Line};
+use gcode::{Code, Line};
 use skein::{Error, Place};
 
 use crate::follow::{Zone, Zones, clear, is_curve, refuse_curve};
@@ -229,7 +229,7 @@ fn moved(step: &Move, by: [f64; 3], e_factor: f64) -> Aim {
 
 /// Whether the line orders something that is neither a move nor a mode: fans, accelerations, tools.
 fn is_machine_command(line: &Line) -> bool {
-    const E_MODES: [Command; 2] = [Command::m(82), Command::m(83)];
+    const E_MODES: [Code; 2] = [Code::m(82), Code::m(83)];
     line.command.is_some_and(|command| command.letter != b'G' && !E_MODES.contains(&command))
 }
 

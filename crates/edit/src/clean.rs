@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use gcode::{Command, Line};
+use gcode::{Code, Line};
 use skein::Error;
 
 use crate::tape::{line_end, raw_lines, split_bom};
@@ -28,7 +28,7 @@ const NEEDED: [&str; 15] =
 impl Clean {
     pub(crate) fn apply(&self, text: &[u8]) -> Result<Edited, Error> {
         // How often each was found.
-        let mut found: BTreeMap<Command, usize> = BTreeMap::new();
+        let mut found: BTreeMap<Code, usize> = BTreeMap::new();
         for name in &self.commands {
             found.insert(command(name)?, 0);
         }
@@ -65,7 +65,7 @@ impl Clean {
 }
 
 /// A command by its name.
-fn command(name: &str) -> Result<Command, Error> {
+fn command(name: &str) -> Result<Code, Error> {
     let line = Line::of(name.trim().as_bytes());
     let is_alone = !line.unreadable && !line.words.has_bare() && line.words.iter().next().is_none();
     let Some(command) = line.command.filter(|_| is_alone) else {
@@ -79,6 +79,6 @@ fn command(name: &str) -> Result<Command, Error> {
     Ok(command)
 }
 
-fn spelled(command: Command) -> String {
+fn spelled(command: Code) -> String {
     format!("{}{}", char::from(command.letter), f64::from(command.thousandths) / 1000.0)
 }

@@ -1,6 +1,6 @@
 //! Goes through a file and lets an edit say what each move shall do.
 
-use gcode::{Command, Line};
+use gcode::{Code, Line};
 use skein::Error;
 
 use crate::machine::{Act, EPSILON_Z, Machine, Move};
@@ -91,7 +91,7 @@ pub(crate) fn refuse_curve(index: usize) -> Error {
 }
 
 /// Splines and direct steps: where they lead is not known here.
-pub(crate) fn is_curve(command: Command) -> bool {
+pub(crate) fn is_curve(command: Code) -> bool {
     command.letter == b'G' && (5000..7000).contains(&command.thousandths)
 }
 
@@ -103,4 +103,4 @@ pub(crate) fn clear(was: &Move, now: &Machine, old_top: f64, top: f64) -> Option
     applies.then(|| was.to[2].max(top + above))
 }
 
-const G92: Command = Command::g(92);
+const G92: Code = Code::g(92);

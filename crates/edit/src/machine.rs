@@ -3,7 +3,7 @@
 //! The machine model of [`clay_processor`] judges a file by classes of moves; to change one, all of the state is
 //! needed, in one frame of coordinates for the whole file: `G92` renames places, and a move is where it is.
 
-use gcode::{Command, Line, Words};
+use gcode::{Code, Line, Words};
 
 use crate::arc::{Arc, Plane};
 
@@ -208,7 +208,7 @@ impl Machine {
         ]
     }
 
-    fn set(&mut self, command: Command, words: &Words) {
+    fn set(&mut self, command: Code, words: &Words) {
         match command {
             G17 => self.plane = Plane::Xy,
             G18 => self.plane = Plane::Zx,
@@ -297,18 +297,18 @@ impl Machine {
     }
 }
 
-const G0: Command = Command::g(0);
-const G1: Command = Command::g(1);
-const G2: Command = Command::g(2);
-const G3: Command = Command::g(3);
-const G17: Command = Command::g(17);
-const G18: Command = Command::g(18);
-const G19: Command = Command::g(19);
-const G20: Command = Command::g(20);
-const G21: Command = Command::g(21);
-const G28: Command = Command::g(28);
-const G90: Command = Command::g(90);
-const G91: Command = Command::g(91);
-const G92: Command = Command::g(92);
-const M82: Command = Command::m(82);
-const M83: Command = Command::m(83);
+const G0: Code = Code::g(0);
+const G1: Code = Code::g(1);
+const G2: Code = Code::g(2);
+const G3: Code = Code::g(3);
+const G17: Code = Code::g(17);
+const G18: Code = Code::g(18);
+const G19: Code = Code::g(19);
+const G20: Code = Code::g(20);
+const G21: Code = Code::g(21);
+const G28: Code = Code::g(28);
+const G90: Code = Code::g(90);
+const G91: Code = Code::g(91);
+const G92: Code = Code::g(92);
+const M82: Code = Code::m(82);
+const M83: Code = Code::m(83);

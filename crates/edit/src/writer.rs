@@ -277,5 +277,5 @@ fn number_of(text: &[u8]) -> Option<f64> {
 
 /// `M110` sets the number from which the machine counts.
 fn is_counter_reset(line: &Line) -> bool {
-    line.command == Some(gcode::Command::m(110))
+    line.command == Some(gcode::Code::m(110))
 }

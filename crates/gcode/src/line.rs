@@ -1,7 +1,7 @@
 //! One line: blank, comment or code, and what the code says.
 
 use crate::token::{Token, Tokens};
-use crate::word::{Command, Words};
+use crate::word::{Code, Words};
 
 /// What a line is to the reader.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -21,7 +21,7 @@ pub struct Line {
     /// What the line is.
     pub kind: Kind,
     /// The first word, if it is a letter with a number; `N10` before it is skipped.
-    pub command: Option<Command>,
+    pub command: Option<Code>,
     /// The words after the command. A line without a command has no words.
     pub words: Words,
     /// Whether something was skipped that is neither word nor remark.
@@ -51,7 +51,7 @@ impl Line {
         let mut tokens = Tokens::new(text);
         if let Some((letter, value)) = tokens.plain_word()
             && letter != b'N'
-            && let Some(command) = Command::new(letter, value)
+            && let Some(command) = Code::new(letter, value)
         {
             self.kind = Kind::Code;
             self.command = Some(command);
@@ -73,7 +73,7 @@ impl Line {
                 }
                 Token::Word { letter, value: Some(value), .. } => {
                     self.kind = Kind::Code;
-                    self.command = Command::new(letter, value);
+                    self.command = Code::new(letter, value);
                     if self.command.is_some() {
                         return self.read_words(tokens);
                     }
@@ -159,16 +159,16 @@ mod tests {
         for text in
             ["G1", "g1", "G01", "G1.0", "G 1", "G+1", "N7 G1", "n7g1*12", "(a) G1", "G1(a)", "G1X", "g1 ;"]
         {
-            assert_eq!(Line::of(text.as_bytes()).command, Some(Command::g(1)), "{text}");
+            assert_eq!(Line::of(text.as_bytes()).command, Some(Code::g(1)), "{text}");
         }
         for text in ["", ";G1", "(G1)", "/G1", "START G1", "G", "G.", "G1.00001", "G99999999999", "N1 N2 G1"]
         {
-            assert_ne!(Line::of(text.as_bytes()).command, Some(Command::g(1)), "{text}");
+            assert_ne!(Line::of(text.as_bytes()).command, Some(Code::g(1)), "{text}");
         }
-        assert_eq!(Line::of(b"G91.1").command, Command::new(b'G', 91.1));
-        assert_ne!(Line::of(b"G91.1").command, Some(Command::g(91)));
-        assert_eq!(Line::of(b"G10 X1").command, Some(Command::g(10)));
-        assert_eq!(Line::of(b"T-1").command, Command::new(b'T', -1.0));
+        assert_eq!(Line::of(b"G91.1").command, Code::new(b'G', 91.1));
+        assert_ne!(Line::of(b"G91.1").command, Some(Code::g(91)));
+        assert_eq!(Line::of(b"G10 X1").command, Some(Code::g(10)));
+        assert_eq!(Line::of(b"T-1").command, Code::new(b'T', -1.0));
     }
 
     #[test]

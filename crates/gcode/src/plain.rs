@@ -1,7 +1,7 @@
 //! Reads the lines that nearly all of a file is made of, straight from the text.
 //!
-//! A plain line is a `G`, one digit, and words of a letter in upper case and a number, with one blank before each and a
-//! line end behind the last: `G1 X12.5 Y3 E.25`. There is nothing to skip in it and nothing to remember, so it is read
+//! A plain line is a `G`, one digit, and words of a letter in upper case and a number, no letter twice, with one blank
+//! before each and a line end behind the last: `G1 X12.5 Y3 E.25`. There is nothing to skip in it and nothing to remember, so it is read
 //! in one pass that finds the line end by coming to it, which costs a third of finding the end first and then asking of
 //! every piece what it is.
 //!
@@ -10,7 +10,7 @@
 use crate::line::{Kind, Line};
 use crate::number::read_number;
 use crate::short::short;
-use crate::word::Command;
+use crate::word::Code;
 
 impl Line {
     /// Becomes the first line of `text` if that is plain and has an end; returns where the next line begins. Otherwise
@@ -27,7 +27,7 @@ impl Line {
     pub fn read_plain(&mut self, text: &[u8]) -> Option<usize> {
         let [b'G', digit @ b'0'..=b'9', b' ', ..] = text else { return None };
         self.kind = Kind::Code;
-        self.command = Some(Command::g(u16::from(digit - b'0')));
+        self.command = Some(Code::g(u16::from(digit - b'0')));
         self.unreadable = false;
         self.words.clear();
         self.read_short_words(text, 3)
@@ -71,6 +71,9 @@ impl Line {
                 return None;
             }
             let (value, end) = read_number(text, index.wrapping_add(1))?;
+            if self.words.has(letter) {
+                return None;
+            }
             self.words.put(letter, value);
             index = end.wrapping_add(1);
             match text.get(end)? {

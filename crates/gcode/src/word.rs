@@ -1,15 +1,15 @@
-//! Commands and words.
+//! Codes, such as `G1`, and words, such as `X5`.
 
 /// What a line orders, such as `G1` or `M104`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Command {
+pub struct Code {
     /// In upper case.
     pub letter: u8,
     /// In thousandths, so that `G91.1` is not `G91` and `G1.0` is `G1`.
     pub thousandths: i32,
 }
 
-impl Command {
+impl Code {
     /// The command of a letter and a number. Nothing if the number has more than three decimals or is out of reach: no
     /// machine has such a command.
     #[inline]
@@ -86,6 +86,12 @@ impl Words {
         (b'A'..=b'Z').filter_map(|letter| Some((letter, self.get(letter)?)))
     }
 
+    /// One bit for each letter that has a number, A the lowest.
+    #[inline]
+    pub(crate) fn letters(&self) -> u32 {
+        self.present
+    }
+
     #[inline]
     pub(crate) fn clear(&mut self) {
         self.present = 0;
@@ -100,6 +106,14 @@ impl Words {
         {
             *slot = value;
             self.present |= 1 << index;
+        }
+    }
+
+    /// Does as [`put`](Self::put), but of two words with one letter the last counts.
+    pub(crate) fn replace(&mut self, letter: u8, value: f64) {
+        if let Some(slot) = index(letter).and_then(|index| self.values.get_mut(index)) {
+            *slot = value;
+            self.put(letter, value);
         }
     }
 

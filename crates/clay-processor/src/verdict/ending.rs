@@ -1,6 +1,6 @@
 //! Whether the print is over.
 
-use gcode::{Command, Line};
+use gcode::{Code, Line};
 
 /// What ends a print.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,14 +20,14 @@ impl End {
         let has_words = words.iter().next().is_some() || words.has_bare();
         let named = |letter| words.has(letter) || words.is_bare(letter);
         let command = line.command?;
-        if command == Command::m(84) || command == Command::m(18) {
+        if command == Code::m(84) || command == Code::m(18) {
             // With S it is a time to wait for, and E alone is no axis of the nozzle.
             let axes = !has_words || [b'X', b'Y', b'Z'].into_iter().any(named);
             (axes && !named(b'S')).then_some(Self::MotorsOff)
-        } else if command == Command::m(2) || command == Command::m(30) {
+        } else if command == Code::m(2) || command == Code::m(30) {
             // With words behind it `M30` deletes a file.
             (!has_words).then_some(Self::Program)
-        } else if command == Command::g(28) {
+        } else if command == Code::g(28) {
             (named(b'Z') || ![b'X', b'Y'].into_iter().any(named)).then_some(Self::Homed)
         } else {
             None

@@ -1,6 +1,6 @@
 //! What the program in the printer does with commands: heats, refuses E, changes what E means.
 
-use gcode::{Command, Line};
+use gcode::{Code, Line};
 
 use super::findings::Findings;
 use super::limits::{Firmware, Limits};
@@ -8,15 +8,8 @@ use super::rule::Rule;
 use crate::motion::{Class, EPSILON, Motion, Move};
 
 /// Commands that heat when S or R is above 0: nozzle, bed and chamber, setting and waiting, and tuning.
-const HEATERS: [Command; 7] = [
-    Command::m(104),
-    Command::m(109),
-    Command::m(140),
-    Command::m(190),
-    Command::m(141),
-    Command::m(191),
-    Command::m(303),
-];
+const HEATERS: [Code; 7] =
+    [Code::m(104), Code::m(109), Code::m(140), Code::m(190), Code::m(141), Code::m(191), Code::m(303)];
 
 /// What Marlin and Klipper refuse when nobody has told them otherwise, in units of E.
 const MARLIN_LONGEST: f64 = 200.0;
@@ -62,18 +55,18 @@ impl Control {
         if !self.heated {
             let target = value(b'S').unwrap_or(0.0).max(value(b'R').unwrap_or(0.0));
             // RepRapFirmware heats tools with `G10 P0 S200` as well.
-            let heats = HEATERS.contains(&command) || command == Command::g(10) && words.has(b'P');
+            let heats = HEATERS.contains(&command) || command == Code::g(10) && words.has(b'P');
             if heats && target > 0.0 {
                 findings.add(Rule::Heats, index, None, target);
             }
         }
-        if command == Command::m(302) {
+        if command == Code::m(302) {
             let allows = value(b'P').map(|p| p > 0.0).or_else(|| value(b'S').map(|s| s <= 0.0));
             // Bare, it only asks.
             self.guards_cold = allows.map_or(self.guards_cold, |allows| self.guards_cold && !allows);
-        } else if command == Command::g(90) {
+        } else if command == Code::g(90) {
             self.relative_e_lost = self.takes_e_along && motion.is_relative_e();
-        } else if command == Command::m(82) || command == Command::m(83) {
+        } else if command == Code::m(82) || command == Code::m(83) {
             self.relative_e_lost = false;
         }
     }
