@@ -79,7 +79,8 @@ mod tests {
     #[test]
     fn sections_have_the_areas_of_their_forms() {
         let area = |width: f64, height: f64, shape| Bead { width, height, shape, density: 1.0 }.area();
-        let near = |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        let near =
+            |found: f64, expected: f64| assert!((found - expected).abs() < 1e-12, "{found} {expected}");
         near(area(6.0, 2.0, Shape::Rectangle), 12.0);
         near(area(6.0, 2.0, Shape::Stadium), 8.0 + std::f64::consts::PI);
         near(area(6.0, 2.0, Shape::Ellipse), std::f64::consts::PI * 3.0);

@@ -51,9 +51,9 @@ fn bytes<T: Copy, const N: usize>(
 /// Lines through points, one cell for each move that deposits, and data for each cell.
 ///
 /// ```
-/// use emulate::{AdditivePart, Bead, Machine, PolyData, Program};
+/// use emulate::{AdditivePart, Bead, Machine, PolyData, Commands};
 ///
-/// let program = Program::read(b"M83\nG1 X10 E1 F600\nG1 Y10 E1\nG1 X0\n");
+/// let program = Commands::read(b"M83\nG1 X10 E1 F600\nG1 Y10 E1\nG1 X0\n");
 /// let operation = Machine::default().process_additive(program.steps)?;
 /// let part = AdditivePart::new(&operation, Bead::default(), [0.0, 0.0, 1.0])?;
 /// let temperature = [38.0, 39.5];
@@ -172,8 +172,10 @@ impl PolyData {
         let small = |of: &dyn Fn(usize) -> f64| {
             CellData::F32(steps.iter().map(|&(index, _)| of(index) as f32).collect())
         };
-        let large = |of: &dyn Fn(usize) -> f64| CellData::F64(steps.iter().map(|&(index, _)| of(index)).collect());
-        let whole = |of: &dyn Fn(usize) -> u32| CellData::U32(steps.iter().map(|&(index, _)| of(index)).collect());
+        let large =
+            |of: &dyn Fn(usize) -> f64| CellData::F64(steps.iter().map(|&(index, _)| of(index)).collect());
+        let whole =
+            |of: &dyn Fn(usize) -> u32| CellData::U32(steps.iter().map(|&(index, _)| of(index)).collect());
         let mean = |index: usize| process.step_distance()[index] / process.duration(index);
         let data = [
             ("feed_rate", small(&|index| process.feed_rate()[index])),
@@ -254,7 +256,10 @@ impl PolyData {
     pub fn write_vtk(&self, mut out: impl Write) -> Result<(), Error> {
         let flat: Vec<f32> = self.points.iter().flatten().copied().collect();
         let (cells, points) = (self.cells(), self.points.len());
-        write!(out, "# vtk DataFile Version 3.0\nclayforge\nBINARY\nDATASET POLYDATA\nPOINTS {points} float\n")?;
+        write!(
+            out,
+            "# vtk DataFile Version 3.0\nclayforge\nBINARY\nDATASET POLYDATA\nPOINTS {points} float\n"
+        )?;
         out.write_all(&CellData::F32(flat).bytes(true))?;
         write!(out, "\nLINES {cells} {}\n", cells + self.connectivity.len())?;
         let mut lines = Vec::with_capacity(4 * (cells + self.connectivity.len()));

@@ -1,7 +1,9 @@
 //! Parts: segments, layers, paths, questions about place and time.
 
 use emulate::motion::MotionProfile;
-use emulate::{Action, AdditiveOperation, AdditivePart, Bead, Bounds, Extruder, Machine, Program, SegmentKind, Shape};
+use emulate::{
+    Action, AdditiveOperation, AdditivePart, Bead, Bounds, Commands, Extruder, Machine, SegmentKind, Shape,
+};
 use proptest::prelude::*;
 
 const SQUARE: &[u8] = include_bytes!("data/a_square.gcode");
@@ -18,7 +20,7 @@ fn machine() -> Machine {
 }
 
 fn emulated(text: &[u8]) -> AdditiveOperation<'_> {
-    machine().process_additive(Program::read(text).steps).expect("a sound machine")
+    machine().process_additive(Commands::read(text).steps).expect("a sound machine")
 }
 
 #[track_caller]
@@ -96,11 +98,10 @@ fn the_layers_of_a_square_have_their_figures() {
         near(layer.volume, 20.0);
         near(layer.mean_speed(), 400.0 / layer.deposition_time);
     }
-    assert_eq!(part.layer(1).map(|row| row.kind).collect::<Vec<_>>(), [
-        SegmentKind::Pause,
-        SegmentKind::Travel,
-        SegmentKind::Deposition
-    ]);
+    assert_eq!(
+        part.layer(1).map(|row| row.kind).collect::<Vec<_>>(),
+        [SegmentKind::Pause, SegmentKind::Travel, SegmentKind::Deposition]
+    );
     assert_eq!(part.layer(3).count(), 0);
 }
 
@@ -164,7 +165,7 @@ fn what_makes_no_part_is_refused() {
 fn a_bead_can_be_estimated_from_a_file() {
     let machine = Machine { extruder: Extruder::Volume, ..machine() };
     let bead = |text: &'static [u8]| {
-        let operation = machine.process_additive(Program::read(text).steps).expect("sound");
+        let operation = machine.process_additive(Commands::read(text).steps).expect("sound");
         Bead::estimated(&operation, Bead::default())
     };
     near(bead(SQUARE).height, 2.0);

@@ -19,7 +19,9 @@ impl Corner {
     pub fn deviation(self, acceleration: f64) -> f64 {
         match self {
             Self::Deviation(deviation) => deviation,
-            Self::SquareSpeed(speed) if acceleration.is_finite() => speed * speed * (SQRT_2 - 1.0) / acceleration,
+            Self::SquareSpeed(speed) if acceleration.is_finite() => {
+                speed * speed * (SQRT_2 - 1.0) / acceleration
+            }
             Self::SquareSpeed(_) => 0.0,
         }
     }
@@ -88,7 +90,9 @@ impl Limits {
                 Quantity::Speed => self.speed = value,
                 Quantity::AxisSpeed(axis) => set(&mut self.axis_speed, axis, value),
                 Quantity::JunctionDeviation => self.corner = Some(Corner::Deviation(value)),
-                Quantity::CornerSpeed | Quantity::AxisJerk(0) => self.corner = Some(Corner::SquareSpeed(value)),
+                Quantity::CornerSpeed | Quantity::AxisJerk(0) => {
+                    self.corner = Some(Corner::SquareSpeed(value))
+                }
                 Quantity::AxisJerk(_) => {}
             }
         }

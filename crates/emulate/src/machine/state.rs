@@ -126,7 +126,15 @@ impl State {
                 self.tool = tool;
                 let deposit = Some(self.deposit(deposit, By::Amount));
                 let at = self.at;
-                return Effect::Way(Way { from: at, to: at, arc: None, deposit, feed, rapid: false, table: 0.0 });
+                return Effect::Way(Way {
+                    from: at,
+                    to: at,
+                    arc: None,
+                    deposit,
+                    feed,
+                    rapid: false,
+                    table: 0.0,
+                });
             }
             Command::Extrude { deposit, by, tool, .. } => {
                 self.tool = tool;
@@ -385,7 +393,8 @@ impl State {
 
 /// Z turned about X by the first angle, then about Y by the second and Z by the third, rad.
 fn tool_axis([a, b, c]: [f64; 3]) -> [f64; 3] {
-    let ((sin_a, cos_a), (sin_b, cos_b), (sin_c, cos_c)) = (libm::sincos(a), libm::sincos(b), libm::sincos(c));
+    let ((sin_a, cos_a), (sin_b, cos_b), (sin_c, cos_c)) =
+        (libm::sincos(a), libm::sincos(b), libm::sincos(c));
     let (x, y, z) = (cos_a * sin_b, -sin_a, cos_a * cos_b);
     [x * cos_c - y * sin_c, x * sin_c + y * cos_c, z]
 }
@@ -395,7 +404,9 @@ fn described(fault: ArcFault, fatal: bool) -> Cow<'static, str> {
         ArcFault::NoRadius => "an arc without a radius".to_owned(),
         ArcFault::ClosedByRadius => "a full circle by its radius could lie anywhere".to_owned(),
         ArcFault::OffCircle(off) => format!("the end of an arc lies {off:.4} mm off its circle"),
-        ArcFault::TooShort(off) => format!("the ends of an arc are {:.4} mm too far apart for its radius", 2.0 * off),
+        ArcFault::TooShort(off) => {
+            format!("the ends of an arc are {:.4} mm too far apart for its radius", 2.0 * off)
+        }
     };
     Cow::Owned(if fatal { what + "; it is taken as a straight move" } else { what })
 }

@@ -84,7 +84,9 @@ impl<'m, R: Record> Walk<'m, R> {
                 self.diagnostics.push(Diagnostic {
                     line: step.line,
                     column: 0,
-                    kind: Problem::Machine(Cow::Borrowed("how long homing takes is not known; it counts as 0 s")),
+                    kind: Problem::Machine(Cow::Borrowed(
+                        "how long homing takes is not known; it counts as 0 s",
+                    )),
                 });
                 self.row(step.line, Action::Home, before, None);
                 Ok(())
@@ -145,7 +147,8 @@ impl<'m, R: Record> Walk<'m, R> {
                 ..Move::line(way.from, way.to, 0.0)
             },
         };
-        let extruded = way.deposit.filter(|deposit| deposit.by == By::Amount).map_or(0.0, |deposit| deposit.amount);
+        let extruded =
+            way.deposit.filter(|deposit| deposit.by == By::Amount).map_or(0.0, |deposit| deposit.amount);
         let moves = step.length >= SHORTEST;
         let action = match way.deposit {
             Some(deposit) if moves && deposit.amount > 0.0 => Action::Deposit,
@@ -187,7 +190,9 @@ impl<'m, R: Record> Walk<'m, R> {
         }
         let Self { planner, record, machine, .. } = self;
         planner
-            .push(&machine.motion, &step, tag, &mut |tag, step, acceleration| record.moved(tag, step, acceleration))
+            .push(&machine.motion, &step, tag, &mut |tag, step, acceleration| {
+                record.moved(tag, step, acceleration)
+            })
             .map_err(|error| {
                 let line = error.index.and_then(|index| planner.tag(index)).map(|tag| record.line(tag));
                 Error::of_motion(error, line)
@@ -207,8 +212,17 @@ impl<'m, R: Record> Walk<'m, R> {
         };
         let [x, y, z] = step.tangent_in;
         // An arc may point anywhere in its plane between its ends.
-        let flat = if is_arc { libm::hypot(x, y).max(libm::hypot(step.tangent_out[0], step.tangent_out[1])) } else { 0.0 };
-        let shares = [x.abs().max(flat), y.abs().max(flat), z.abs().max(step.tangent_out[2].abs()), step.extruder.abs()];
+        let flat = if is_arc {
+            libm::hypot(x, y).max(libm::hypot(step.tangent_out[0], step.tangent_out[1]))
+        } else {
+            0.0
+        };
+        let shares = [
+            x.abs().max(flat),
+            y.abs().max(flat),
+            z.abs().max(step.tangent_out[2].abs()),
+            step.extruder.abs(),
+        ];
         for (axis, share) in shares.into_iter().enumerate() {
             if share > 0.0 {
                 step.target = step.target.min(limits.axis_speed[axis] / share);

@@ -91,7 +91,9 @@ impl BaamConstraints {
             moves.table[index].abs(),
         ];
         let caps = self.axis_speed.iter().zip(shares);
-        caps.filter(|(_, share)| *share > 0.0).map(|(speed, share)| speed / share).fold(f64::INFINITY, f64::min)
+        caps.filter(|(_, share)| *share > 0.0)
+            .map(|(speed, share)| speed / share)
+            .fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -144,11 +144,7 @@ fn classic(moves: &Moves, index: usize, jerk: [f64; 4]) -> f64 {
         let of = |tangent: [f64; 3], extruder: f64| speed * tangent.get(axis).copied().unwrap_or(extruder);
         let before = of(moves.tangent_out[index], moves.extruder[index]);
         let after = of(moves.tangent_in[next], moves.extruder[next]);
-        let jump = if before * after < 0.0 {
-            before.abs().max(after.abs())
-        } else {
-            (after - before).abs()
-        };
+        let jump = if before * after < 0.0 { before.abs().max(after.abs()) } else { (after - before).abs() };
         if jump > most {
             factor = factor.min(most / jump);
         }

@@ -85,12 +85,7 @@ impl Default for MotionProfile {
 impl MotionProfile {
     /// The planner of the Cincinnati BAAM.
     pub fn baam(max_acceleration: Option<f64>, junction_deviation: f64, rules: BaamConstraints) -> Self {
-        Self {
-            max_acceleration,
-            junction_deviation,
-            constraints: Some(Arc::new(rules)),
-            ..Self::default()
-        }
+        Self { max_acceleration, junction_deviation, constraints: Some(Arc::new(rules)), ..Self::default() }
     }
 
     /// A move with the limits of this planner.
@@ -133,7 +128,9 @@ impl MotionProfile {
         }
         if !(self.junction_deviation >= 0.0 && self.junction_deviation.is_finite()) {
             let value = self.junction_deviation;
-            return Err(MotionError::limit(format!("the junction deviation must be 0 mm or more, not {value}")));
+            return Err(MotionError::limit(format!(
+                "the junction deviation must be 0 mm or more, not {value}"
+            )));
         }
         match self.profile.fault() {
             Some(fault) => Err(MotionError::limit(fault)),

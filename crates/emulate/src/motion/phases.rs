@@ -91,8 +91,7 @@ impl Phases {
 
 fn after(before: MotionState, phase: &Phase, time: f64) -> MotionState {
     let Phase { acceleration, jerk, .. } = *phase;
-    let distance =
-        before.distance + time * (before.speed + time * (acceleration / 2.0 + time * jerk / 6.0));
+    let distance = before.distance + time * (before.speed + time * (acceleration / 2.0 + time * jerk / 6.0));
     let speed = before.speed + time * (acceleration + time * jerk / 2.0);
     // Rounding must not turn a stop into a step back.
     MotionState { distance, speed: speed.max(0.0), acceleration: acceleration + jerk * time }

@@ -82,7 +82,9 @@ impl ProfileType {
     #[inline]
     pub fn timing(self, task: &Task) -> Timing {
         let one = |peak: f64, time: f64| Timing { time, peak, limit_exceeded: false };
-        if task.acceleration == f64::INFINITY && !matches!(self, Self::Trapezoid(Ramps::DistanceLimited { .. })) {
+        if task.acceleration == f64::INFINITY
+            && !matches!(self, Self::Trapezoid(Ramps::DistanceLimited { .. }))
+        {
             return one(task.target, task.length / task.target);
         }
         match self {
@@ -107,7 +109,9 @@ impl ProfileType {
     /// The phases of the move, given the peak that [`timing`](Self::timing) found.
     pub fn phases(self, task: &Task, peak: f64) -> Phases {
         let mut phases = Phases::new(task.entry);
-        if task.acceleration == f64::INFINITY && !matches!(self, Self::Trapezoid(Ramps::DistanceLimited { .. })) {
+        if task.acceleration == f64::INFINITY
+            && !matches!(self, Self::Trapezoid(Ramps::DistanceLimited { .. }))
+        {
             return Phases::constant(peak, task.length);
         }
         match self {

@@ -162,7 +162,8 @@ fn ramps_over_fixed_parts_of_the_way() {
 #[test]
 fn numbers_that_make_no_sense_are_refused() {
     let refused = |planner: MotionProfile| planner.check().expect_err("refused").message;
-    let with = |acceleration| MotionProfile { max_acceleration: Some(acceleration), ..MotionProfile::default() };
+    let with =
+        |acceleration| MotionProfile { max_acceleration: Some(acceleration), ..MotionProfile::default() };
     assert!(refused(with(0.0)).contains("acceleration"));
     assert!(refused(with(f64::NAN)).contains("acceleration"));
     let bent = MotionProfile { junction_deviation: -1.0, ..MotionProfile::default() };
@@ -218,7 +219,12 @@ prop_compose! {
 }
 
 fn planner(profile: ProfileType) -> MotionProfile {
-    MotionProfile { max_acceleration: Some(500.0), junction_deviation: 0.05, profile, ..MotionProfile::default() }
+    MotionProfile {
+        max_acceleration: Some(500.0),
+        junction_deviation: 0.05,
+        profile,
+        ..MotionProfile::default()
+    }
 }
 
 proptest! {

@@ -97,10 +97,10 @@ pub const CHORD_TOLERANCE: f64 = 0.01;
 /// it is about.
 ///
 /// ```
-/// use emulate::{AdditivePart, Bead, Machine, Program, Shape};
+/// use emulate::{AdditivePart, Bead, Machine, Commands, Shape};
 ///
 /// let program = b"M82\nG1 Z2 F600\nG1 X100 E5 F3000\nG1 Y100 E10\nG1 Z4\nG1 X0 E15\nG1 Y0 E20\n";
-/// let operation = Machine::default().process_additive(Program::read(program).steps)?;
+/// let operation = Machine::default().process_additive(Commands::read(program).steps)?;
 /// let bead = Bead { width: 6.0, height: 2.0, shape: Shape::Rectangle, density: 1.9 };
 /// let part = AdditivePart::new(&operation, bead, [0.0, 0.0, 1.0])?;
 ///
@@ -259,9 +259,10 @@ impl<'o, 'a> AdditivePart<'o, 'a> {
     /// The entries of the process data whose moves touch a box.
     pub fn in_box(&self, bounds: Bounds) -> impl Iterator<Item = usize> {
         let process = self.operation.process_data();
-        let near = self.segments.iter().filter(move |segment| {
-            segment.kind != SegmentKind::Pause && segment.bounds.touches(&bounds)
-        });
+        let near = self
+            .segments
+            .iter()
+            .filter(move |segment| segment.kind != SegmentKind::Pause && segment.bounds.touches(&bounds));
         let steps = near.flat_map(|segment| segment.start..segment.end);
         steps.filter(move |&index| {
             process.action[index].is_path() && Bounds::of_step(process, index).touches(&bounds)
