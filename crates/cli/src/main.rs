@@ -4,6 +4,7 @@ mod args;
 mod check;
 mod craft;
 mod dump;
+mod emulate;
 mod explain;
 mod output;
 mod profile;
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
         Command::Explain(topic) => explain::run(topic),
         Command::Profile(profile) => profile::run(profile),
         Command::Check(check) => check::run(check),
+        Command::Emulate(emulate) => emulate::run(emulate),
     };
     report::exit(done)
 }

@@ -1,9 +1,11 @@
 //! Profiles: what the settings of a print are, read from TOML with the place of every key.
 
 mod check;
+mod motion;
 mod show;
 mod toml;
 
+pub use motion::Motion;
 pub(crate) use show::{bounds, wrapped};
 pub use show::{schema, starter};
 
@@ -65,6 +67,8 @@ pub struct Profile {
     pub sequence: Option<Vec<&'static str>>,
     /// The printer.
     pub machine: Machine,
+    /// How it moves.
+    pub motion: Motion,
     /// The clay.
     pub clay: Clay,
     /// Every stage there is, in the order of the table.
@@ -83,6 +87,7 @@ impl Default for Profile {
             chain: Chain::default(),
             sequence: None,
             machine: Machine::default(),
+            motion: Motion::default(),
             clay: Clay::default(),
             stations,
             places: BTreeMap::new(),
@@ -98,6 +103,7 @@ impl Clone for Profile {
             chain: self.chain,
             sequence: self.sequence.clone(),
             machine: self.machine.clone(),
+            motion: self.motion.clone(),
             clay: self.clay.clone(),
             stations: stations
                 .map(|one| Station { entry: one.entry, active: one.active, work: one.work.copy() })
@@ -279,6 +285,7 @@ impl Profile {
     fn section_mut(&mut self, name: &str) -> Option<(&mut dyn Keys, Option<&mut bool>)> {
         match name {
             "machine" => Some((&mut self.machine, None)),
+            "motion" => Some((&mut self.motion, None)),
             "clay" => Some((&mut self.clay, None)),
             _ => {
                 let station = self.stations.iter_mut().find(|station| station.entry.name == name)?;
@@ -327,6 +334,7 @@ impl Profile {
         };
         let mut sections = vec![
             section("machine", "The printer.", &self.machine),
+            section("motion", "How the printer moves.", &self.motion),
             section("clay", "The clay itself.", &self.clay),
         ];
         for station in &self.stations {
