@@ -278,7 +278,7 @@ impl PolyData {
             match index {
                 0 => write!(out, "SCALARS {name} {kind} 1\nLOOKUP_TABLE default\n")?,
                 1 => write!(out, "FIELD FieldData {}\n{name} 1 {cells} {kind}\n", self.data.len() - 1)?,
-                _ => write!(out, "{name} 1 {cells} {kind}\n")?,
+                _ => writeln!(out, "{name} 1 {cells} {kind}")?,
             }
             out.write_all(&data.bytes(true))?;
             out.write_all(b"\n")?;

@@ -90,9 +90,9 @@ fn the_field_over_the_way_is_the_way_of_the_deposits() {
     for index in 0..series.len() - 1 {
         let middle = 0.5 * (series.time[index] + series.time[index + 1]);
         let at = operation.at_time(middle).expect("there are steps").at;
-        for axis in 0..3 {
+        for (axis, found) in at.into_iter().enumerate() {
             let line = 0.5 * (series.at[index][axis] + series.at[index + 1][axis]);
-            assert!((at[axis] - line).abs() < 0.01 + 1e-9, "{middle}: {} {line}", at[axis]);
+            assert!((found - line).abs() < 0.01 + 1e-9, "{middle}: {found} {line}");
         }
     }
 }
