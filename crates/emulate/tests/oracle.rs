@@ -4,7 +4,7 @@
 use emulate::motion::{
     BaamConstraints, JunctionModel, MachineConstraints, MotionProfile, Moves, ProfileType,
 };
-use emulate::{Extruder, Machine, Operation, Program};
+use emulate::{Commands, Extruder, Machine, Operation};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ fn machine(motion: MotionProfile) -> Machine {
 
 fn time(name: &str, motion: MotionProfile) -> f64 {
     let text = data(&format!("{name}.gcode"));
-    let operation = machine(motion).process(Program::read(&text).steps).expect("a sound machine");
+    let operation = machine(motion).process(Commands::read(&text).steps).expect("a sound machine");
     assert_eq!(operation.commands().len(), operation.process_data().len(), "{name}");
     operation.total_time()
 }
@@ -135,7 +135,7 @@ fn caps_of_single_axes() {
     let mut machine = machine(planner(500.0, 0.05));
     machine.limits.axis_speed[0] = 30.0;
     let text = data("a_square.gcode");
-    let operation = machine.process(Program::read(&text).steps).expect("sound");
+    let operation = machine.process(Commands::read(&text).steps).expect("sound");
     near(operation.total_time(), 34.800206945, "X by the limits");
 }
 
@@ -148,7 +148,7 @@ fn arcs_without_their_own_speed_limit_are_faster() {
 
 fn by_moves(name: &str) -> (Operation<'static>, Vec<Vec<f64>>) {
     let text: &'static [u8] = data(&format!("{name}.gcode")).leak();
-    let operation = machine(planner(500.0, 0.05)).process(Program::read(text).steps).expect("sound");
+    let operation = machine(planner(500.0, 0.05)).process(Commands::read(text).steps).expect("sound");
     let table = String::from_utf8(data(&format!("{name}_moves.csv"))).expect("text");
     let number = |cell: &str| cell.parse::<f64>().expect("a number");
     let rows = table.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect();
@@ -180,13 +180,13 @@ fn every_move_has_the_speeds_and_the_time_of_the_oracle() {
 #[test]
 fn where_the_oracle_ends_and_how_far_it_goes() {
     let text = data("f_modes.gcode");
-    let modes = machine(planner(500.0, 0.05)).process(Program::read(&text).steps).expect("sound");
+    let modes = machine(planner(500.0, 0.05)).process(Commands::read(&text).steps).expect("sound");
     let end = modes.process_data().iter().last().expect("a row").at;
     for (found, expected) in end.iter().zip([20.0, -10.0, 0.0]) {
         assert!((found - expected).abs() < 1e-9, "{end:?}");
     }
     let text = data("d_arcs.gcode");
-    let arcs = machine(planner(500.0, 0.05)).process(Program::read(&text).steps).expect("sound");
+    let arcs = machine(planner(500.0, 0.05)).process(Commands::read(&text).steps).expect("sound");
     let statistics = arcs.statistics().expect("it is processed");
     assert!((statistics.path_length - 407.045589).abs() < 1e-6);
     assert_eq!(statistics.dwell_time, 0.25);
@@ -197,9 +197,9 @@ fn a_stream_has_the_same_sums_as_the_columns() {
     for name in ["a_square", "b_vase", "c_sfact", "d_arcs", "e_zigzag"] {
         let text = data(&format!("{name}.gcode"));
         let machine = machine(planner(500.0, 0.05));
-        let whole = machine.process_additive(Program::read(&text).steps).expect("sound");
+        let whole = machine.process_additive(Commands::read(&text).steps).expect("sound");
         let mut stream = machine.stream().expect("sound");
-        Program::read(&text).steps.iter().for_each(|step| stream.step(step));
+        Commands::read(&text).steps.iter().for_each(|step| stream.step(step));
         let totals = stream.finish().expect("sound");
         let statistics = whole.statistics().expect("it is processed");
         assert_eq!(totals.commands, whole.commands().len() as u64);

@@ -1,6 +1,6 @@
 //! Prints in several dialects, and a reader of motion of their own: what an edit does is not judged by its own eyes.
 
-use gcode::{Command, Line, lines};
+use gcode::{Code, Line, lines};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -200,7 +200,7 @@ pub fn steps(text: &[u8]) -> Vec<Step> {
     let mut found = Vec::new();
     for text in lines(text) {
         let line = Line::of(text);
-        let Some(Command { letter, thousandths }) = line.command else { continue };
+        let Some(Code { letter, thousandths }) = line.command else { continue };
         match (letter, thousandths / 1000) {
             (b'G', 20) => unit = 25.4,
             (b'G', 21) => unit = 1.0,
