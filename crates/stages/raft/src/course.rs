@@ -7,7 +7,9 @@ use crate::support::Support;
 use crate::Raft;
 use shape::plane::boolean::positive;
 use shape::plane::offset;
-use skein::{Error, Facts, Layer, Line, Micron, Notes, Point, Ratio, Ring, Tag};
+use skein::{
+    Bead, Error, Facts, Feature, Layer, Line, Micron, Notes, Nozzle, Point, Point3, Ratio, Ring, Tag,
+};
 
 /// A layer of the raft.
 pub(crate) struct Course {
@@ -81,6 +83,7 @@ impl Course {
         let floor = first.nozzle_z(facts)?.0 - first.height(facts)?.0;
         let outset = raft.outset(facts.bead_width()?, longer_side(outlines));
         let mut under = outlines.first().cloned().unwrap_or_default();
+        under.extend(thin_parts(first, facts)?);
         under.extend(support.into_iter().flat_map(|support| support.region.iter().cloned()));
         let under = positive(&under);
         if under.is_empty() && raft.base_layers + raft.interface_layers > 0 {
@@ -141,7 +144,7 @@ impl Course {
         let width = Micron::from_mm(usual.width.mm() * thickness)
             .filter(|width| width.0 > 0)
             .ok_or_else(|| Error::new("a bead of the raft has no width"))?;
-        let bead = skein::Bead { width, ..usual }.of_height(self.height);
+        let bead = Bead { width, ..usual }.of_height(self.height);
         let share = bead.area() / usual.of_height(self.height).area() * flow;
         let flow = Ratio::from_f64(share).ok_or_else(|| Error::new("a bead of the raft has no flow"))?;
         // Each crosses the one below; the first goes along y.
@@ -163,6 +166,43 @@ impl Course {
         lines.push(Line::Close(Tag::Layer));
         Ok(Layer { lines })
     }
+}
+
+/// What beads on the middle of thin parts cover: they are as wide as the nozzle can lay, wider perhaps than the outline.
+fn thin_parts(layer: &Layer, facts: &Facts) -> Result<Vec<Ring>, Error> {
+    let bead = facts.bead()?.of_height(layer.height(facts)?);
+    let mut nozzle = Nozzle::default();
+    let mut parts = Vec::new();
+    for line in &layer.lines {
+        let from = nozzle.at;
+        nozzle.follow(line);
+        if let (true, Some(from), Some(step)) =
+            (nozzle.on && nozzle.feature == Feature::Middle, from, line.as_move())
+        {
+            let width = bead.section.width(bead.area() * nozzle.flow.f64(), bead.height.mm()) * 1000.0;
+            parts.extend(covered(from, step.to, width));
+        }
+    }
+    Ok(parts)
+}
+
+/// The rectangle that a bead covers, from half its width before it begins to half its width behind its end.
+fn covered(from: Point3, to: Point3, width: f64) -> Option<Ring> {
+    let (x, y) = (f64::from(to.x) - f64::from(from.x), f64::from(to.y) - f64::from(from.y));
+    let length = (x * x + y * y).sqrt();
+    if length == 0.0 {
+        return None;
+    }
+    let (x, y) = (x / length * width / 2.0, y / length * width / 2.0);
+    let corner = |at: Point3, x: f64, y: f64| {
+        Point::new(at.x.saturating_add(x.round() as i32), at.y.saturating_add(y.round() as i32))
+    };
+    Some(Ring(vec![
+        corner(from, -x + y, -y - x),
+        corner(to, x + y, y - x),
+        corner(to, x - y, y + x),
+        corner(from, -x - y, -y + x),
+    ]))
 }
 
 /// The longer side of the box around all layers, in microns.
