@@ -8,9 +8,8 @@ use proptest::option;
 use proptest::prelude::*;
 use shape::{Bounds, Point, Point3, Ring};
 use skein::{
-    BedArea, BedShape,
-    Arc, Center, Choice, EUnit, Facts, Field, Heaters, Kind, Line, Mark, Move, Reader, RotatedLoopLayer,
-    Section, Setting, Settings, Side, Signature, Skein, Slices, Span, Tag, Value, spans,
+    Arc, BedArea, BedShape, Center, Choice, EUnit, Facts, Field, Heaters, Kind, Line, Mark, Move, Reader,
+    RotatedLoopLayer, Section, Setting, Settings, Side, Signature, Skein, Slices, Span, Tag, Value, spans,
 };
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Display};
@@ -282,6 +281,11 @@ proptest! {
     #[test]
     fn ratio_is_read_as_it_was_written(value in any::<i32>().prop_map(Ratio)) {
         number_law(value, Ratio::PLACES)?;
+    }
+
+    #[test]
+    fn a_temperature_is_read_as_it_was_written(value in (-10_000_000..=10_000_000).prop_map(Celsius)) {
+        number_law(value, Celsius::PLACES)?;
     }
 
     #[test]

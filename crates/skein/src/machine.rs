@@ -66,8 +66,7 @@ impl BedArea {
             let half = (f64::from(high) - f64::from(low)) / 2.0;
             (f64::from(at) - f64::from(low) - half).abs() / (half - margin).max(f64::MIN_POSITIVE)
         };
-        let (x, y) =
-            (share(self.low.x, self.high.x, point.x), share(self.low.y, self.high.y, point.y));
+        let (x, y) = (share(self.low.x, self.high.x, point.x), share(self.low.y, self.high.y, point.y));
         match self.shape {
             BedShape::Rectangle => x <= 1.0 && y <= 1.0,
             BedShape::Ellipse => x * x + y * y <= 1.0,

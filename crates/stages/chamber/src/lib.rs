@@ -145,7 +145,11 @@ impl Ramp {
             let wanted = Celsius::from_degrees(self.at(layer.z().mm()));
             if wanted != now {
                 let line = command(BED.set, wanted.unwrap_or_default())?;
-                let at = layer.lines.len().min(if matches!(layer.lines.get(1), Some(Line::Thickness(_))) { 2 } else { 1 });
+                let at = layer.lines.len().min(if matches!(layer.lines.get(1), Some(Line::Thickness(_))) {
+                    2
+                } else {
+                    1
+                });
                 layer.lines.insert(at, line);
                 now = wanted;
             }

@@ -1,10 +1,10 @@
 //! The layers of the raft.
 
+use crate::Raft;
 use crate::bed::Bed;
 use crate::heat::Heat;
 use crate::lay::{Rates, Rows, Threads, feed, in_order, zigzag};
 use crate::support::Support;
-use crate::Raft;
 use shape::plane::boolean::positive;
 use shape::plane::offset;
 use skein::{
@@ -46,9 +46,13 @@ struct Make {
 impl Raft {
     fn make(&self, kind: Kind) -> Make {
         let [thickness, density, feed, flow, lift] = match kind {
-            Kind::Base => {
-                [self.base_thickness, self.base_density, self.base_feed, self.base_flow, self.base_nozzle_lift]
-            }
+            Kind::Base => [
+                self.base_thickness,
+                self.base_density,
+                self.base_feed,
+                self.base_flow,
+                self.base_nozzle_lift,
+            ],
             Kind::Interface => [
                 self.interface_thickness,
                 self.interface_density,
@@ -148,13 +152,12 @@ impl Course {
         let share = bead.area() / usual.of_height(self.height).area() * flow;
         let flow = Ratio::from_f64(share).ok_or_else(|| Error::new("a bead of the raft has no flow"))?;
         // Each crosses the one below; the first goes along y.
-        let direction = if self.number % 2 == 0 { (0.0, 1.0) } else { (1.0, 0.0) };
+        let direction = if self.number.is_multiple_of(2) { (0.0, 1.0) } else { (1.0, 0.0) };
         let step = bead.spacing().um().max(1.0) / density;
         let threads = zigzag(&self.region, direction, step, Rows::Fitted);
         // As much clay a second as a usual bead at the usual feed.
         let feed = feed(rates.feed.mm_per_s() * self.make.feed / (thickness * thickness))?;
-        let lay =
-            Threads { z: self.nozzle_z(), rates: Rates { feed, ..rates }, flow, around: Ratio::ONE };
+        let lay = Threads { z: self.nozzle_z(), rates: Rates { feed, ..rates }, flow, around: Ratio::ONE };
         let mut lines = vec![Line::Layer(Micron(self.foot + self.height.0 / 2))];
         if self.height != facts.layer_height()? {
             lines.push(Line::Thickness(self.height));
@@ -180,29 +183,11 @@ fn thin_parts(layer: &Layer, facts: &Facts) -> Result<Vec<Ring>, Error> {
             (nozzle.on && nozzle.feature == Feature::Middle, from, line.as_move())
         {
             let width = bead.section.width(bead.area() * nozzle.flow.f64(), bead.height.mm()) * 1000.0;
-            parts.extend(covered(from, step.to, width));
+            let flat = |at: Point3| Point::new(at.x, at.y);
+            parts.extend(Ring::around(flat(from), flat(step.to), width / 2.0));
         }
     }
     Ok(parts)
-}
-
-/// The rectangle that a bead covers, from half its width before it begins to half its width behind its end.
-fn covered(from: Point3, to: Point3, width: f64) -> Option<Ring> {
-    let (x, y) = (f64::from(to.x) - f64::from(from.x), f64::from(to.y) - f64::from(from.y));
-    let length = (x * x + y * y).sqrt();
-    if length == 0.0 {
-        return None;
-    }
-    let (x, y) = (x / length * width / 2.0, y / length * width / 2.0);
-    let corner = |at: Point3, x: f64, y: f64| {
-        Point::new(at.x.saturating_add(x.round() as i32), at.y.saturating_add(y.round() as i32))
-    };
-    Some(Ring(vec![
-        corner(from, -x + y, -y - x),
-        corner(to, x + y, y - x),
-        corner(to, x - y, y + x),
-        corner(from, -x - y, -y + x),
-    ]))
 }
 
 /// The longer side of the box around all layers, in microns.

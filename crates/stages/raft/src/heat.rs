@@ -2,9 +2,7 @@
 
 use crate::support::Support;
 use shape::plane::offset;
-use skein::{
-    Celsius, Error, Facts, Feed, Layer, Line, Move, Point, Point3, Reader, Ring, Tag,
-};
+use skein::{Celsius, Error, Facts, Feed, Layer, Line, Move, Point, Point3, Reader, Ring, Tag};
 
 /// What the temperatures of a print are, and which one the nozzle has.
 pub(crate) struct Heat {

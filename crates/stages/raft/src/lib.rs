@@ -132,8 +132,7 @@ impl Stage for Raft {
             return Ok(skein);
         }
         let rates = Rates { feed: facts.operating_feed()?, travel: facts.travel_feed()? };
-        let outlines: Vec<Vec<Ring>> =
-            skein.layers.par_iter().map(|layer| boundary(&layer.lines)).collect();
+        let outlines: Vec<Vec<Ring>> = skein.layers.par_iter().map(|layer| boundary(&layer.lines)).collect();
         let bed = Bed::new(&facts)?;
         let supports = support::find(self, &skein.layers, &outlines, &facts, &bed, notes)?;
         let courses =

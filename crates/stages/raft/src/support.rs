@@ -168,7 +168,8 @@ impl Site<'_> {
         let turned = raft.support_cross_hatch && index % 2 == 1;
         let direction = if turned { (0.0, 1.0) } else { (1.0, 0.0) };
         let spacing = bead.spacing().um().max(1.0);
-        let rows = |region: &[Ring], density: f64| zigzag(region, direction, spacing / density, Rows::Aligned);
+        let rows =
+            |region: &[Ring], density: f64| zigzag(region, direction, spacing / density, Rows::Aligned);
         let mut threads = rows(&sparse, raft.support_density.f64());
         threads.extend(rows(&dense, raft.interface_density.f64()));
         let all = threads.len();
@@ -190,8 +191,12 @@ fn on_this_side(grown: Vec<Ring>, core: &[Ring]) -> Vec<Ring> {
         let near = |(least, most): (Point, Point)| {
             least.x <= high.x && low.x <= most.x && least.y <= high.y && low.y <= most.y
         };
-        let near: Vec<Ring> =
-            core.iter().zip(&boxes).filter(|(_, corners)| near(**corners)).map(|(ring, _)| ring.clone()).collect();
+        let near: Vec<Ring> = core
+            .iter()
+            .zip(&boxes)
+            .filter(|(_, corners)| near(**corners))
+            .map(|(ring, _)| ring.clone())
+            .collect();
         !common(island, &near).is_empty()
     };
     islands.into_iter().filter(has_some).flatten().collect()

@@ -1,7 +1,7 @@
 use crate::{Raft, SupportChoice, boundary};
 use shape::plane::boolean::common;
 use shape::plane::offset;
-use skein::{Angle, Feature, Line, Micron, Nozzle, Notes, Point, Ratio, Ring, Skein, Stage};
+use skein::{Angle, Feature, Line, Micron, Notes, Nozzle, Point, Ratio, Ring, Skein, Stage};
 
 /// What the rows of the acceptance list have in common: h 0.4, w 0.72, 16 mm/s.
 const FINE: &str = "(<layerHeight> 0.4 </layerHeight>)\n(<beadSection> rectangle </beadSection>)\n\
@@ -114,7 +114,8 @@ fn beads(lines: &[Line], wanted: Feature) -> Vec<[f64; 5]> {
     for line in lines {
         let from = nozzle.at;
         nozzle.follow(line);
-        if let (true, Some(from), Some(step)) = (nozzle.on && nozzle.feature == wanted, from, line.as_move()) {
+        if let (true, Some(from), Some(step)) = (nozzle.on && nozzle.feature == wanted, from, line.as_move())
+        {
             let mm = |microns: i32| Micron(microns).mm();
             beads.push([mm(from.x), mm(from.y), mm(step.to.x), mm(step.to.y), mm(step.to.z)]);
         }
@@ -175,7 +176,8 @@ fn r2_the_base_is_thick_and_slow_and_runs_along_y() {
         lines.iter().filter_map(Line::as_move).filter_map(|step| step.feed).map(|feed| feed.get()).collect();
     assert_eq!(feeds, [1_200_000, 240_000]);
     // 1.44 × 0.8 is twice 0.72 × 0.8; around the beads, not before them (D28).
-    let flows: Vec<Line> = lines.iter().filter(|line| matches!(line, Line::Flow(_) | Line::On)).cloned().collect();
+    let flows: Vec<Line> =
+        lines.iter().filter(|line| matches!(line, Line::Flow(_) | Line::On)).cloned().collect();
     assert_eq!(flows, [Line::Flow(ratio(2.0)), Line::On, Line::Flow(Ratio::ONE)]);
 }
 
@@ -338,7 +340,10 @@ fn r10_a_leaning_wall_is_held_when_it_leans_more_than_the_angle() {
 fn r11_support_never_comes_nearer_to_a_wall_than_its_gap() {
     for (x, y) in [(0.0, 0.0), (100.0, 37.0), (-63.217, 0.411)] {
         let moved = |boxes: Boxes<'_>| -> Vec<[f64; 4]> {
-            boxes.iter().map(|[left, front, right, back]| [left + x, front + y, right + x, back + y]).collect()
+            boxes
+                .iter()
+                .map(|[left, front, right, back]| [left + x, front + y, right + x, back + y])
+                .collect()
         };
         let layers: Vec<Vec<[f64; 4]>> = mushroom().into_iter().map(moved).collect();
         let layers: Vec<Boxes<'_>> = layers.iter().map(|boxes| &boxes[..]).collect();

@@ -2,7 +2,7 @@
 
 use crate::hull::hull;
 use shape::plane::boolean::positive;
-use skein::{Error, Facts, Feature, Layer, Micron, Nozzle, Point, Point3, Ring, boundary};
+use skein::{Error, Facts, Feature, Layer, Nozzle, Point, Point3, Ring, boundary};
 
 /// The outer outlines of the part on a layer.
 pub(crate) fn outers(layer: &Layer) -> Vec<Ring> {
@@ -27,36 +27,13 @@ pub(crate) fn obstacles(layers: &[Layer], facts: &Facts) -> Result<Vec<Ring>, Er
             nozzle.follow(line);
             let built = nozzle.on && matches!(nozzle.feature, Feature::Raft | Feature::Support);
             if let (true, Some(from), Some(step)) = (built, from, line.as_move()) {
-                let width = bead.section.width(bead.area() * nozzle.flow.f64(), bead.height.mm());
-                rings.extend(around(from, step.to, Micron::from_mm(width).unwrap_or(bead.width)));
+                let width = bead.section.width(bead.area() * nozzle.flow.f64(), bead.height.mm()) * 1000.0;
+                let flat = |at: Point3| Point::new(at.x, at.y);
+                rings.extend(Ring::around(flat(from), flat(step.to), width / 2.0));
             }
         }
     }
     Ok(rings)
-}
-
-/// The rectangle that a bead covers.
-fn around(from: Point3, to: Point3, width: Micron) -> Option<Ring> {
-    let (x, y) = (f64::from(to.x) - f64::from(from.x), f64::from(to.y) - f64::from(from.y));
-    let length = (x * x + y * y).sqrt();
-    if length == 0.0 {
-        return None;
-    }
-    let half = width.um() / 2.0 / length;
-    let (along, across) = ((x * half, y * half), (-y * half, x * half));
-    let corner = |at: Point3, ahead: f64, aside: f64| {
-        let nearest = |value: f64| (value + 0.5f64.copysign(value)) as i32;
-        Point::new(
-            nearest(f64::from(at.x) + along.0 * ahead + across.0 * aside),
-            nearest(f64::from(at.y) + along.1 * ahead + across.1 * aside),
-        )
-    };
-    Some(Ring(vec![
-        corner(from, -1.0, -1.0),
-        corner(to, 1.0, -1.0),
-        corner(to, 1.0, 1.0),
-        corner(from, -1.0, 1.0),
-    ]))
 }
 
 /// What the lines of the skirt keep their distance from.

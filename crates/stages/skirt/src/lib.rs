@@ -62,7 +62,9 @@ impl Stage for Skirt {
         let sites = skein.layers[..count]
             .iter()
             .enumerate()
-            .map(|(index, layer)| Site::new(layer, nozzles[index], &facts).map_err(|error| error.in_layer(index)))
+            .map(|(index, layer)| {
+                Site::new(layer, nozzles[index], &facts).map_err(|error| error.in_layer(index))
+            })
             .collect::<Result<Vec<Site>, Error>>()?;
         let brims: Vec<Vec<Vec<Ring>>> =
             sites.iter().take(brimmed).map(|site| self.brim(site, &facts)).collect();
@@ -196,9 +198,7 @@ impl Skirt {
         }
         notes.say(match levels.len() {
             0 => "there is no room for a skirt on the bed".to_owned(),
-            room => format!(
-                "the bed has room for {room} lines of skirt, which hold {volume:.0} mm³ of clay"
-            ),
+            room => format!("the bed has room for {room} lines of skirt, which hold {volume:.0} mm³ of clay"),
         });
         Ok(levels)
     }

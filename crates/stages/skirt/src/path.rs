@@ -29,7 +29,8 @@ pub(crate) fn chains(levels: &[Vec<Ring>], target: Option<Point>, near: f64) -> 
         let mut around: Vec<&Ring> = vec![island];
         for level in &mut outer {
             // A ring around several islands goes with the first of them.
-            around.extend(level.iter().position(|ring| ring.contains(inside)).map(|index| level.remove(index)));
+            around
+                .extend(level.iter().position(|ring| ring.contains(inside)).map(|index| level.remove(index)));
         }
         let mut path = Path::default();
         for ring in around.into_iter().rev() {

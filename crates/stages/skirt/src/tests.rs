@@ -117,8 +117,7 @@ fn sk1_one_loop_around_a_square_on_the_first_layer() {
 
 #[test]
 fn sk2_of_two_loops_the_outer_comes_first_without_a_stop_between() {
-    let made =
-        craft(&Skirt { loops: 2, ..plain() }, skein(FINE, &[&[square(0.0, 0.0, 10.0, 10.0)]]));
+    let made = craft(&Skirt { loops: 2, ..plain() }, skein(FINE, &[&[square(0.0, 0.0, 10.0, 10.0)]]));
     let loops = threads(&made.layers[0].lines);
     assert_eq!(loops.len(), 1);
     let (outer, inner) = loops[0].split_at(loops[0].len() / 2);
@@ -180,8 +179,7 @@ fn a_skirt_stays_on_the_bed_and_says_what_it_could_not_do() {
     let ten = [square(30.0, 30.0, 40.0, 40.0)];
     for bed in ["rectangle 0.0 0.0 70.0 70.0", "ellipse 0.0 0.0 70.0 70.0"] {
         let facts = format!("{FINE}(<bed> {bed} </bed>)\n");
-        let (made, notes) =
-            craft_with(&Skirt { minimum_volume: 5000, ..plain() }, skein(&facts, &[&ten]));
+        let (made, notes) = craft_with(&Skirt { minimum_volume: 5000, ..plain() }, skein(&facts, &[&ten]));
         let loops = threads(&made.layers[0].lines);
         assert!(loops[0].len() > 50);
         let far = if bed.starts_with('r') {
@@ -213,8 +211,12 @@ fn clay_flows_on_into_the_part() {
     assert_eq!(skirt.last(), Some(&(0.0, 0.0)));
     assert!(length(&skirt[skirt.len() - 2..]) < 4.6);
     // Speeds: the travel, the skirt as slow as the part's first bead, which says its own.
-    let feeds: Vec<u32> =
-        lines.iter().filter_map(Line::as_move).filter_map(|step| step.feed).map(|feed| feed.get() / 1000).collect();
+    let feeds: Vec<u32> = lines
+        .iter()
+        .filter_map(Line::as_move)
+        .filter_map(|step| step.feed)
+        .map(|feed| feed.get() / 1000)
+        .collect();
     assert_eq!(feeds, [1200, 480, 480]);
     assert_eq!(made.layers[1], before.layers[1]);
     // Every bead of the part is still there.
@@ -268,7 +270,10 @@ fn higher_layers_have_one_line_and_brims_as_many_layers_as_wanted() {
     // Loops at 5.5, 4.5 + …: what matters is how many there are.
     let (skirt, brim) = (4.0 * (10.0 + 2.0 * (1.44 + 3.24)), 4.0 * (10.72 + 12.16));
     assert!((boxes[1] - skirt + 8.0 * 0.72 - brim).abs() < 8.0, "{boxes:?}");
-    assert!(boxes[0] > boxes[1] + 1.9 * skirt && (boxes[2] - brim).abs() < 2.0 && boxes[3] == 0.0, "{boxes:?}");
+    assert!(
+        boxes[0] > boxes[1] + 1.9 * skirt && (boxes[2] - brim).abs() < 2.0 && boxes[3] == 0.0,
+        "{boxes:?}"
+    );
 }
 
 #[test]
