@@ -236,6 +236,24 @@ fn clay_flows_on_into_the_part() {
 }
 
 #[test]
+fn a_first_bead_with_the_speed_of_its_travel_keeps_it() {
+    let ten = skein(FINE, &[&[square(0.0, 0.0, 10.0, 10.0)]]);
+    let text = String::from_utf8(ten.write())
+        .expect("text")
+        .replace(" F480.0", "")
+        .replace("M103\n(</edge>)", "G1 X0.0 Y0.0 Z0.4 F300.0\nM103\n(</edge>)");
+    let made = craft(&Skirt { into_part: true, ..plain() }, Skein::read(text.as_bytes()).expect("a skein"));
+    let lines = &made.layers[0].lines;
+    let part = lines.iter().position(|line| *line == Line::Close(skein::Tag::Skirt)).expect("a skirt");
+    let feeds: Vec<Option<u32>> = lines[part..]
+        .iter()
+        .filter_map(Line::as_move)
+        .map(|step| step.feed.map(|feed| feed.get() / 1000))
+        .collect();
+    assert_eq!(feeds, [Some(1200), None, None, Some(300)]);
+}
+
+#[test]
 fn a_part_that_begins_far_away_or_behind_foreign_lines_begins_with_a_stop() {
     let skirt = Skirt { into_part: true, gap: ratio(0.5), ..plain() };
     // A bay in which the part begins.
