@@ -183,18 +183,18 @@ impl Skirt {
             return Ok(Vec::new());
         }
         let section = site.bead.area();
-        let (mut levels, mut volume) = (Vec::new(), 0.0);
+        let (mut levels, mut volume, mut rings) = (Vec::new(), 0.0, base);
         for level in 0..MOST_LOOPS {
             if level >= self.loops && volume >= f64::from(self.minimum_volume) {
                 return Ok(levels);
             }
-            let distance = self.gap.f64() * site.bead.width.um() + reach + f64::from(level) * site.spacing();
-            let rings = outsides(offset(&base, distance));
+            let first = self.gap.f64() * site.bead.width.um() + reach;
+            rings = grown(rings, if level == 0 { first } else { site.spacing() }, 2.0 * reach);
             if !fits(&rings, &site.bead, facts) {
                 break;
             }
             volume += rings.iter().map(Ring::length).sum::<f64>() / 1000.0 * section;
-            levels.push(rings);
+            levels.push(rings.clone());
         }
         notes.say(match levels.len() {
             0 => "there is no room for a skirt on the bed".to_owned(),
@@ -274,14 +274,26 @@ impl Site {
     }
 }
 
+/// The outer rings around a region at a distance, reached in steps of a bead at most: bays that close on the way are gone
+/// for the next step, which a single wide one would have to untangle.
+fn grown(mut rings: Vec<Ring>, distance: f64, step: f64) -> Vec<Ring> {
+    let mut left = distance;
+    while left > 0.0 {
+        rings = outsides(offset(&rings, left.min(step)));
+        left -= step;
+    }
+    rings
+}
+
 /// Whether beads along rings lie on the bed; where the header does not know it, within what a document can hold.
 fn fits(rings: &[Ring], bead: &Bead, facts: &Facts) -> bool {
     let half = bead.width.um() / 2.0;
     let far = Micron::LIMIT.unsigned_abs();
     let on_bed = |bed: &BedArea, point: Point| bed.holds(point, half);
-    rings.iter().flat_map(|ring| &ring.0).all(|point| {
-        point.x.unsigned_abs() < far
-            && point.y.unsigned_abs() < far
-            && facts.bed.as_ref().is_none_or(|bed| on_bed(bed, *point))
-    })
+    !rings.is_empty()
+        && rings.iter().flat_map(|ring| &ring.0).all(|point| {
+            point.x.unsigned_abs() < far
+                && point.y.unsigned_abs() < far
+                && facts.bed.as_ref().is_none_or(|bed| on_bed(bed, *point))
+        })
 }

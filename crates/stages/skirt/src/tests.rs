@@ -341,3 +341,18 @@ fn the_hull_has_no_corner_too_many() {
     assert_eq!(hull(vec![point(1, 2)]), None);
     assert_eq!(hull(Vec::new()), None);
 }
+
+#[test]
+fn bays_that_close_on_the_way_out_are_no_harm() {
+    // A comb with narrow and wide teeth, far from whose back the line runs.
+    let mut comb = vec![(0.0, 0.0), (60.0, 0.0)];
+    for tooth in 0..10 {
+        let right = 60.0 - 6.0 * f64::from(tooth);
+        let depth = 30.0 + f64::from(tooth * tooth % 7);
+        comb.extend([(right, depth), (right - 2.0, depth), (right - 2.5, 5.0), (right - 6.0, 5.0)]);
+    }
+    let skirt = Skirt { convex: false, gap: ratio(12.0), loops: 3, ..plain() };
+    let made = craft(&skirt, skein(FINE, &[&[comb]]));
+    let total: f64 = threads(&made.layers[0].lines).iter().map(|points| length(points)).sum();
+    assert!((3.0 * 190.0..3.0 * 280.0).contains(&total), "{total}");
+}
