@@ -8,13 +8,13 @@ use proptest::option;
 use proptest::prelude::*;
 use shape::{Bounds, Point, Point3, Ring};
 use skein::{
-    Arc, Center, Choice, EUnit, Facts, Field, Heaters, Kind, Line, Mark, Move, Reader, RotatedLoopLayer,
-    Section, Setting, Settings, Side, Signature, Skein, Slices, Span, Tag, Value, spans,
+    Arc, BedArea, BedShape, Center, Choice, EUnit, Facts, Field, Heaters, Kind, Line, Mark, Move, Reader,
+    RotatedLoopLayer, Section, Setting, Settings, Side, Signature, Skein, Slices, Span, Tag, Value, spans,
 };
 use std::collections::BTreeMap;
 use std::fmt::{Debug, Display};
 use std::str::FromStr;
-use unit::{Angle, Direction, Extrusion, Feed, Micron, Ratio};
+use unit::{Angle, Celsius, Direction, Extrusion, Feed, Micron, Ratio};
 
 // What can exist.
 
@@ -161,6 +161,16 @@ fn e_unit() -> impl Strategy<Value = EUnit> {
     ]
 }
 
+fn bed() -> impl Strategy<Value = BedArea> {
+    let shape = prop::sample::select(BedShape::ALL);
+    (place(), length(), length(), shape).prop_map(|(low, x, y, shape)| {
+        // Within what a coordinate can be.
+        let low = Point::new(low.x.min(Micron::LIMIT / 2), low.y.min(Micron::LIMIT / 2));
+        let high = Point::new(low.x + x.0.min(Micron::LIMIT / 2), low.y + y.0.min(Micron::LIMIT / 2));
+        BedArea { low, high, shape }
+    })
+}
+
 fn facts() -> impl Strategy<Value = Facts> {
     // Whatever a profile says: a setting has no more decimals than the header.
     let value = prop_oneof![0.001..1000.0, 0.001..f64::from(Feed::LIMIT / 60_000)];
@@ -182,7 +192,19 @@ fn facts() -> impl Strategy<Value = Facts> {
         option::of(speed),
         option::of((any::<bool>(), any::<bool>(), any::<bool>())),
     );
-    (lengths, rest).prop_map(|(lengths, rest)| Facts {
+    let celsius = || option::of((-10_000_000..=10_000_000).prop_map(Celsius));
+    let nozzle = [(); 9].map(|()| celsius());
+    (lengths, rest, option::of(bed()), nozzle).prop_map(|(lengths, rest, bed, nozzle)| Facts {
+        bed,
+        cooling_rate: nozzle[0],
+        heating_rate: nozzle[1],
+        base_temperature: nozzle[2],
+        interface_temperature: nozzle[3],
+        first_layer_infill_temperature: nozzle[4],
+        first_layer_perimeter_temperature: nozzle[5],
+        next_layers_temperature: nozzle[6],
+        support_temperature: nozzle[7],
+        supported_temperature: nozzle[8],
         layer_height: lengths.0,
         first_layer_height: lengths.1,
         nozzle: lengths.2,
@@ -259,6 +281,11 @@ proptest! {
     #[test]
     fn ratio_is_read_as_it_was_written(value in any::<i32>().prop_map(Ratio)) {
         number_law(value, Ratio::PLACES)?;
+    }
+
+    #[test]
+    fn a_temperature_is_read_as_it_was_written(value in (-10_000_000..=10_000_000).prop_map(Celsius)) {
+        number_law(value, Celsius::PLACES)?;
     }
 
     #[test]

@@ -135,7 +135,7 @@ fn skein_picture(index: usize, layer: &Layer, mut nozzle: Nozzle, bead: Bead) ->
     picture.rings(&boundary(&layer.lines), "class=\"part\"");
     let mut run: Vec<Point> = Vec::new();
     let mut travels = String::new();
-    // A run ends where clay starts, stops, or flows otherwise.
+    // A run ends where clay starts, stops, flows otherwise or for something else.
     for line in &layer.lines {
         let flat = |nozzle: &Nozzle| nozzle.at.map(|at| Point::new(at.x, at.y));
         match line {
@@ -152,7 +152,8 @@ fn skein_picture(index: usize, layer: &Layer, mut nozzle: Nozzle, bead: Bead) ->
                 let from = nozzle.at.unwrap_or(arc.step.to);
                 run.extend(arc.chords(from, 5.0).iter().map(|at| Point::new(at.x, at.y)));
             }
-            Line::On | Line::Off | Line::Flow(_) => {
+            // Clay may flow on from one kind of bead into the next.
+            Line::On | Line::Off | Line::Flow(_) | Line::Wall(..) | Line::Open(_) | Line::Close(_) => {
                 end_run(&mut run, &nozzle, bead, &mut picture, &mut travels)
             }
             _ => {}

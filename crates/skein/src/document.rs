@@ -66,6 +66,19 @@ impl Layer {
     }
 }
 
+impl Layer {
+    /// Where lines go that come before everything the layer lays: behind its height, its directions, and whatever nobody
+    /// knows.
+    pub fn opening(&self) -> usize {
+        let lays = |line: &Line| match line {
+            Line::Open(tag) | Line::Close(tag) => *tag != Tag::Alteration,
+            Line::Wall(..) | Line::On | Line::Off | Line::Flow(_) => true,
+            line => line.as_move().is_some(),
+        };
+        self.lines.iter().position(lays).unwrap_or(self.lines.len())
+    }
+}
+
 impl Skein {
     /// Sorts lines into head, layers and tail.
     pub fn from_lines(lines: impl IntoIterator<Item = Line>) -> Self {

@@ -1,9 +1,9 @@
 //! What later stages must know: every fact has one name, one type and one place, here.
 
-use crate::{Choice, EUnit, Error, Heaters};
+use crate::{BedArea, Choice, EUnit, Error, Heaters};
 use std::fmt;
 use std::str::FromStr;
-use unit::{Feed, Micron};
+use unit::{Celsius, Feed, Micron};
 
 /// The model of a bead's cross-section (clay.md §5.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
@@ -163,6 +163,8 @@ facts! {
     e_unit: EUnit = "eUnit", "carve", read, show;
     /// What the machine can heat.
     heaters: Heaters = "heaters", "carve", read, show;
+    /// What the bed covers of the plane.
+    bed: BedArea = "bed", "carve", read, show;
     /// The form of a bead's cross-section.
     bead_section: Section = "beadSection", "carve", choice_of, word_of;
     /// The speed at which beads are laid.
@@ -173,6 +175,26 @@ facts! {
     orbital_feed: Feed = "orbitalFeedRatePerSecond", "speed", feed_of, show_feed;
     /// The fastest that the machine goes up or down.
     z_feed: Feed = "maximumZFeedRatePerSecond", "speed", feed_of, show_feed;
+    /// How many degrees a second the nozzle cools.
+    cooling_rate: Celsius = "coolingRate", "temperature", read, show;
+    /// How many degrees a second the nozzle warms up.
+    heating_rate: Celsius = "heatingRate", "temperature", read, show;
+    /// How hot the nozzle lays the base of a raft.
+    base_temperature: Celsius = "baseTemperature", "temperature", read, show;
+    /// How hot it lays the rest of the raft.
+    interface_temperature: Celsius = "interfaceTemperature", "temperature", read, show;
+    /// How hot it lays the infill of the part's first layer.
+    first_layer_infill_temperature: Celsius =
+        "objectFirstLayerInfillTemperature", "temperature", read, show;
+    /// How hot it lays the walls of the part's first layer.
+    first_layer_perimeter_temperature: Celsius =
+        "objectFirstLayerPerimeterTemperature", "temperature", read, show;
+    /// How hot it lays the other layers.
+    next_layers_temperature: Celsius = "objectNextLayersTemperature", "temperature", read, show;
+    /// How hot it lays support.
+    support_temperature: Celsius = "supportLayersTemperature", "temperature", read, show;
+    /// How hot it lays the part on layers with support.
+    supported_temperature: Celsius = "supportedLayersTemperature", "temperature", read, show;
     /// The distance between neighbouring beads.
     infill_width: Micron = "infillWidth", "carve", positive, show;
     /// The width of a bead.

@@ -32,7 +32,7 @@ pub use document::{Layer, Signature, Skein};
 pub use error::{Error, Place};
 pub use facts::{Bead, Facts, Section};
 pub use line::{Feature, Line, Mark, Move, Side, Tag};
-pub use machine::{Bed, BedShape, EUnit, Firmware, Heaters, Machine, Origin};
+pub use machine::{Bed, BedArea, BedShape, EUnit, Firmware, Heaters, Machine, Origin};
 pub use notes::{Note, Notes};
 pub use nozzle::{Nozzle, Span, boundary, spans};
 pub use pen::{Pen, Stretch, Thread, along};
@@ -43,7 +43,7 @@ pub use slices::{RotatedLoopLayer, Slices};
 pub use stage::Stage;
 
 pub use shape::{Point, Point3, Ring};
-pub use unit::{Angle, Direction, Extrusion, Feed, Micron, Ratio};
+pub use unit::{Angle, Celsius, Direction, Extrusion, Feed, Micron, Ratio};
 
 // The derive names this crate by its outside name.
 extern crate self as skein;

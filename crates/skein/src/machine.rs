@@ -1,5 +1,6 @@
 use crate::Choice;
 use crate::settings::{Kind, ReadValue, Setting, Value};
+use shape::Point;
 use std::fmt;
 use std::str::FromStr;
 use unit::{Micron, Ratio};
@@ -48,6 +49,40 @@ impl Machine {
         match self.origin {
             Origin::Corner => (0, 0),
             Origin::Center => (-(self.bed.x.0 / 2), -(self.bed.y.0 / 2)),
+        }
+    }
+
+    /// What the bed covers of the plane.
+    pub fn area(&self) -> BedArea {
+        let (x, y) = self.least();
+        let high = Point::new(x + self.bed.x.0, y + self.bed.y.0);
+        BedArea { low: Point::new(x, y), high, shape: self.shape }
+    }
+}
+
+/// What the bed covers of the plane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BedArea {
+    /// Its least x and y.
+    pub low: Point,
+    /// Its greatest x and y.
+    pub high: Point,
+    /// Its outline.
+    pub shape: BedShape,
+}
+
+impl BedArea {
+    /// Whether a point lies on the bed, at least so many microns from its edge.
+    pub fn holds(&self, point: Point, margin: f64) -> bool {
+        // From the middle of the bed, as a share of the way to its side.
+        let share = |low: i32, high: i32, at: i32| {
+            let half = (f64::from(high) - f64::from(low)) / 2.0;
+            (f64::from(at) - f64::from(low) - half).abs() / (half - margin).max(f64::MIN_POSITIVE)
+        };
+        let (x, y) = (share(self.low.x, self.high.x, point.x), share(self.low.y, self.high.y, point.y));
+        match self.shape {
+            BedShape::Rectangle => x <= 1.0 && y <= 1.0,
+            BedShape::Ellipse => x * x + y * y <= 1.0,
         }
     }
 }
@@ -243,6 +278,28 @@ impl FromStr for Heaters {
 }
 
 // The header forms: plain words, since a header tag holds no quotes.
+
+impl fmt::Display for BedArea {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let index = BedShape::ALL.iter().position(|shape| *shape == self.shape).unwrap_or(0);
+        let [left, front, right, back] = [self.low.x, self.low.y, self.high.x, self.high.y].map(Micron);
+        write!(f, "{} {left} {front} {right} {back}", BedShape::WORDS[index].0)
+    }
+}
+
+impl FromStr for BedArea {
+    type Err = ();
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let mut words = text.split(' ');
+        let word = words.next().unwrap_or("");
+        let index = BedShape::WORDS.iter().position(|(known, _)| *known == word).ok_or(())?;
+        let mut length = || words.next().and_then(|word| word.parse::<Micron>().ok()).ok_or(());
+        let [left, front, right, back] = [length()?, length()?, length()?, length()?].map(|length| length.0);
+        let (low, high) = (Point::new(left, front), Point::new(right, back));
+        let sound = low.x < high.x && low.y < high.y && words.next().is_none();
+        if sound { Ok(Self { low, high, shape: BedShape::ALL[index] }) } else { Err(()) }
+    }
+}
 
 impl fmt::Display for EUnit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

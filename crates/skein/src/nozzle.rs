@@ -52,6 +52,14 @@ impl Nozzle {
         }
     }
 
+    /// Keeps the speed of lines that other lines have come before: the first move, if it says none, says the one that
+    /// held here.
+    pub fn restate(&self, lines: &mut [Line]) {
+        if let Some(step) = lines.iter_mut().find_map(Line::as_move_mut) {
+            step.feed = step.feed.or(self.feed);
+        }
+    }
+
     fn change(&mut self, change: &Change) {
         self.at = change.at.or(self.at);
         self.on = change.on.unwrap_or(self.on);

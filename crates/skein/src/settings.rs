@@ -2,7 +2,7 @@
 //! default out of one field.
 
 use std::fmt;
-use unit::{Angle, Feed, Micron, Ratio};
+use unit::{Angle, Celsius, Feed, Micron, Ratio};
 
 /// A value as it stands in a profile, before it has a meaning.
 #[derive(Clone, Debug, PartialEq)]
@@ -209,6 +209,7 @@ macro_rules! number_setting {
 number_setting! {
     Micron: Micron::from_mm, |it| it.mm();
     Ratio: Ratio::from_f64, |it| it.f64();
+    Celsius: Celsius::from_degrees, |it| it.degrees();
     Angle: Angle::from_degrees, |it| it.degrees();
     // Whole microns a second, as many decimals as a header has: what the moves say and what the header says is the same.
     Feed: |speed| Feed::from_mm_per_s((speed * 1000.0).round() / 1000.0), |it| it.mm_per_s();

@@ -9,7 +9,7 @@ pub mod decimal;
 mod quantity;
 
 pub use angle::{Angle, Direction};
-pub use quantity::{Extrusion, Feed, Micron, NotANumber, Ratio};
+pub use quantity::{Celsius, Extrusion, Feed, Micron, NotANumber, Ratio};
 
 /// The door from floats to integers: the nearest integer, halves away from zero, or `None` for NaN and for
 /// anything beyond ±`limit`.

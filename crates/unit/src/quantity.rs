@@ -48,6 +48,22 @@ impl Ratio {
     }
 }
 
+/// A temperature in thousandths of a degree Celsius, or a change of it per second; printed with up to three decimals.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Celsius(pub i32);
+
+impl Celsius {
+    /// The nearest thousandth of a degree; `None` for NaN and beyond ±10 000 °C.
+    pub fn from_degrees(degrees: f64) -> Option<Self> {
+        round_within(degrees * 1000.0, 1e7).map(|thousandths| Self(thousandths as i32))
+    }
+
+    /// Degrees.
+    pub fn degrees(self) -> f64 {
+        f64::from(self.0) / 1000.0
+    }
+}
+
 /// A speed in microns per *minute*, because `F` is written in millimetres per minute. Never zero: a feed rate of
 /// zero is a machine that waits forever.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -166,6 +182,9 @@ impl fmt::Display for NotANumber {
 
 decimal_text!(Micron, 3, |it| i64::from(it.0), |value| {
     i32::try_from(value).ok().filter(|microns| microns.unsigned_abs() <= Self::LIMIT as u32).map(Self)
+});
+decimal_text!(Celsius, 3, |it| i64::from(it.0), |value| {
+    i32::try_from(value).ok().filter(|thousandths| thousandths.unsigned_abs() <= 10_000_000).map(Self)
 });
 decimal_text!(Ratio, 6, |it| i64::from(it.0), |value| i32::try_from(value).ok().map(Self));
 decimal_text!(Feed, 3, |it| i64::from(it.get()), |value| u32::try_from(value).ok().and_then(Self::new));

@@ -23,6 +23,11 @@ pub fn difference(region: &[Ring], without: &[Ring]) -> Vec<Ring> {
     apply(region, without, OverlayRule::Difference, FillRule::Positive)
 }
 
+/// What lies in both regions.
+pub fn common(region: &[Ring], other: &[Ring]) -> Vec<Ring> {
+    apply(region, other, OverlayRule::Intersect, FillRule::Positive)
+}
+
 fn apply(subject: &[Ring], clip: &[Ring], rule: OverlayRule, fill: FillRule) -> Vec<Ring> {
     let mut overlay: Overlay<i32> = Overlay::new(subject.iter().chain(clip).map(|ring| ring.0.len()).sum());
     for (rings, kind) in [(subject, ShapeType::Subject), (clip, ShapeType::Clip)] {

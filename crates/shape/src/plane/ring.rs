@@ -6,6 +6,26 @@ use super::Point;
 pub struct Ring(pub Vec<Point>);
 
 impl Ring {
+    /// The rectangle around the way between two points, `half` microns from it on every side; `None` where there is no
+    /// way.
+    pub fn around(from: Point, to: Point, half: f64) -> Option<Self> {
+        let (x, y) = from.delta(to);
+        let length = from.distance(to);
+        if length == 0.0 {
+            return None;
+        }
+        let (x, y) = (x as f64 / length * half, y as f64 / length * half);
+        let corner = |at: Point, x: f64, y: f64| {
+            Point::new(at.x.saturating_add(x.round() as i32), at.y.saturating_add(y.round() as i32))
+        };
+        Some(Self(vec![
+            corner(from, y - x, -x - y),
+            corner(to, x + y, y - x),
+            corner(to, x - y, x + y),
+            corner(from, -x - y, x - y),
+        ]))
+    }
+
     /// Twice the signed area in square microns: positive when counter-clockwise.
     pub fn area2(&self) -> i128 {
         // Taken about the first point, so that the products of a part far from the origin stay small.

@@ -232,6 +232,7 @@ impl Carve {
             nozzle: Some(machine.nozzle),
             e_unit: Some(machine.e_unit),
             heaters: Some(machine.heaters),
+            bed: Some(machine.area()),
             bead_section: Some(self.bead_section),
             infill_width: Some(bead.spacing()),
             bead_width: Some(self.bead_width),
