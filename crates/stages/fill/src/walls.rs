@@ -10,10 +10,10 @@ use skein::{Feature, Ring, Side};
 const FINENESS: f64 = 200.0;
 
 /// Lays the walls of a layer and gives the region in which the middles of infill beads may go.
-pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) -> Vec<Ring> {
+pub fn lay(source: &Source, fill: &Fill, walls: u32, solid: bool, strands: &mut Vec<Strand>) -> Vec<Ring> {
     let step = spacing(&source.bead);
     let overlap = fill.overlap.f64() * step;
-    if fill.walls == 0 {
+    if walls == 0 {
         // Infill up to the outline; the flank of an infill bead ends there like that of a wall would.
         return if overlap > 0.0 { offset(&source.edges, overlap) } else { source.edges.clone() };
     }
@@ -22,7 +22,7 @@ pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>)
     loop {
         let next = offset_with_loss(&wall, -step);
         level += 1;
-        let last = level == fill.walls || next.rings.is_empty();
+        let last = level == walls || next.rings.is_empty();
         // Where the next wall fits everywhere, nothing is too narrow for this one.
         let narrow = next.lost >= step || has_small(&wall, step);
         let wanted = narrow || (last && overlap > 0.0);
