@@ -4,7 +4,8 @@
 //! * [`law`]: reading undoes writing, and views leave nothing out;
 //! * [`parts`]: whole prints, in memory and as text, on one thread and on two;
 //! * [`cli`]: the command as scripts and people meet it;
-//! * [`tidy`]: the layout of the workspace.
+//! * [`tidy`]: the layout of the workspace;
+//! * [`totals`]: what lies on the test meshes behind fill.
 
 mod cases;
 mod cli;
@@ -12,3 +13,4 @@ mod law;
 mod parts;
 mod support;
 mod tidy;
+mod totals;

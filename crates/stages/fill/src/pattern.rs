@@ -20,6 +20,9 @@ pub enum Cells {
     },
 }
 
+/// With more clay than this the cells are no wider than a bead.
+const DENSEST: f64 = 0.8;
+
 /// Lines that lead up and down by turns; where one is up and the next one is down they run side by side for a while.
 pub struct Wave {
     /// From the middle of a line to the middle of the next.
@@ -38,6 +41,9 @@ impl Cells {
     /// `step` is the room that a bead takes beside its neighbours.
     pub fn new(fill: &Fill, step: f64) -> Option<Self> {
         let density = fill.density.f64();
+        if density > DENSEST {
+            return None;
+        }
         let gap = (1.0 - fill.grid_overlap.f64()) * step;
         match fill.pattern {
             Pattern::Line | Pattern::Concentric => None,
