@@ -4,10 +4,10 @@ use crate::pattern::Cells;
 use crate::source::Source;
 use crate::strand::{Strand, spacing};
 use crate::surface::Surface;
-use crate::{Fill, Pattern};
+use crate::{Fill, Pattern, rings};
 use shape::plane::clip;
 use shape::plane::hatch::{End, Hatch, Intervals, Rows, Span};
-use shape::plane::{all_simplified, islands, offset};
+use shape::plane::{islands, offset};
 use skein::{Angle, Direction, Feature, Notes, Point, Ratio, Ring};
 use std::borrow::Cow;
 
@@ -91,7 +91,9 @@ impl Job<'_> {
         let apart = step / self.fill.density.f64();
         match (self.fill.pattern, Cells::new(self.fill, step)) {
             (Pattern::Line, _) => self.rows(solid, turned, step, apart, strands),
-            (Pattern::Concentric, _) => self.rings(&self.room(solid, turned, step), step, apart, strands),
+            (Pattern::Concentric, _) => {
+                rings::lay(&self.room(solid, turned, step), apart, self.source, strands);
+            }
             (_, Some(cells)) => self.cells(&cells, &self.room(solid, turned, step), step, apart, strands),
             (_, None) => {
                 notes.layer(
@@ -130,19 +132,6 @@ impl Job<'_> {
                     self.lay(thread.points, Ratio::ONE, strands);
                 }
             }
-        }
-    }
-
-    /// Rings that follow the walls inwards. The first lies as far from the wall, or from a surface's last bead, as from
-    /// the next ring.
-    fn rings(&self, room: &[Ring], step: f64, apart: f64, strands: &mut Vec<Strand>) {
-        let mut rings = offset(room, step - apart);
-        while !rings.is_empty() {
-            rings = all_simplified(&rings, step / FINENESS);
-            let next = offset(&rings, -apart);
-            let long = rings.into_iter().filter(|ring| ring.length() >= 2.0 * step);
-            strands.extend(long.map(|ring| Strand::ring(Feature::Infill, ring.0)));
-            rings = next;
         }
     }
 
@@ -198,9 +187,6 @@ impl Job<'_> {
 /// A bead takes a third more or less than its nominal clay before it gaps or bulges.
 const LEAST: f64 = 0.67;
 const MOST: f64 = 1.34;
-
-/// A ring keeps no corner nearer to a straight line than half a hundredth of a bead, like a wall.
-const FINENESS: f64 = 200.0;
 
 /// A thread cut where it turns back more sharply than an angle between its two sides. What is then shorter than `least`
 /// is left out: it was only the way from one line to the next.

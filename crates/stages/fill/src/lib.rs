@@ -3,6 +3,7 @@
 mod infill;
 mod order;
 mod pattern;
+mod rings;
 mod source;
 mod strand;
 mod surface;
@@ -105,7 +106,7 @@ pub enum Pattern {
     Hexagonal,
     /// Circles side by side.
     Circular,
-    /// Rings that follow the walls inwards.
+    /// Rings that follow the walls inwards, each joined to the next.
     Concentric,
 }
 

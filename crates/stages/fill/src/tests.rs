@@ -596,6 +596,20 @@ fn cells_leave_room_for_surfaces() {
 }
 
 #[test]
+fn the_rings_of_a_part_without_corners_inwards_are_one_thread() {
+    let beads = laid(&sparse(0.3, Pattern::Concentric), stack(&[square(40_000)], 1)).remove(0);
+    let infill = infill(&beads);
+    assert_eq!(infill.len(), 1);
+    // One end is at the middle, the other one on the outermost ring.
+    let apart = WIDTH / 0.3;
+    let middle = Point::new(20_000, 20_000);
+    let ends = [infill[0].points[0].0, infill[0].points[infill[0].points.len() - 1].0];
+    let mut ways = ends.map(|end| end.distance(middle));
+    ways.sort_by(f64::total_cmp);
+    assert!(ways[0] < 2.0 * apart && ways[1] > 15_000.0, "{ways:?}");
+}
+
+#[test]
 fn layers_without_a_part_pass_and_the_rest_is_filled() {
     let layers = [(vec![], None), (vec![square(10_000)], None), (vec![], None)];
     for pattern in CELLS {

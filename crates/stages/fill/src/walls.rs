@@ -7,7 +7,7 @@ use shape::plane::{Offset, all_simplified, dab, facing, offset, offset_with_loss
 use skein::{Feature, Ring, Side};
 
 /// A wall keeps no corner nearer to a straight line than half a hundredth of a bead.
-const FINENESS: f64 = 200.0;
+pub const FINENESS: f64 = 200.0;
 
 /// Lays the walls of a layer and gives the region in which the middles of infill beads may go.
 pub fn lay(source: &Source, fill: &Fill, walls: u32, solid: bool, strands: &mut Vec<Strand>) -> Vec<Ring> {
@@ -31,15 +31,26 @@ pub fn lay(source: &Source, fill: &Fill, walls: u32, solid: bool, strands: &mut 
             fill_gaps(&room.rings, &next, step, source, strands);
         }
         let feature = if level == 1 { Feature::Edge } else { Feature::Loop };
-        if room.lost < step && !has_small(&wall, step) {
-            strands.extend(wall.into_iter().map(|ring| Strand::wall(feature, ring)));
-        } else {
-            strands.extend(relieved(wall, &room, feature, step, source));
-        }
+        strands.extend(laid(wall, &room, feature, step, source));
         if last {
             return if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
         }
         wall = all_simplified(&next.rings, step / FINENESS);
+    }
+}
+
+/// Walls with as much clay on each stretch as there is room. `inside` is what they enclose, half a bead from their middles.
+pub fn laid(
+    wall: Vec<Ring>,
+    inside: &Offset,
+    feature: fn(Side) -> Feature,
+    step: f64,
+    source: &Source,
+) -> Vec<Strand> {
+    if inside.lost < step && !has_small(&wall, step) {
+        wall.into_iter().map(|ring| Strand::wall(feature, ring)).collect()
+    } else {
+        relieved(wall, inside, feature, step, source)
     }
 }
 
