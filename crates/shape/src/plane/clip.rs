@@ -26,21 +26,19 @@ pub struct Thread {
 }
 
 /// The parts of lines inside a region, joined to threads: each goes along a part, along the outline to the next end
-/// there when that is at most `reach` microns away, and on. Parts of later lines are preferred, so that threads go
-/// through the lines in order. What is shorter than `least` is left out.
+/// there when that is at most `reach` microns away, and on. What is shorter than `least` is left out.
 pub fn threads(lines: &[Line], region: &[Ring], reach: f64, least: f64) -> Vec<Thread> {
     let Some(grid) = Grid::new(region) else { return Vec::new() };
-    let mut book = Book { region, parts: Vec::new(), ends: Vec::new(), places: Vec::new() };
+    let mut book = Book { region, parts: Vec::new() };
     let mut whole = Vec::new();
-    for (index, line) in lines.iter().enumerate() {
-        if grid.cut(line, region, index, &mut book.parts) && grid.holds(line, region) {
+    for line in lines {
+        if grid.cut(line, region, &mut book.parts) && grid.holds(line, region) {
             whole.push(Thread {
                 points: line.points.iter().map(|point| rounded(*point)).collect(),
                 closed: line.closed,
             });
         }
     }
-    book.file();
     let mut threads = book.threads(reach);
     threads.append(&mut whole);
     threads.retain(|thread| thread.points.len() > 1 && length(&thread.points) >= least);
@@ -59,10 +57,8 @@ struct Spot {
 
 /// A part of a line from where it enters the region to where it leaves it.
 struct Part {
-    line: usize,
     points: Vec<Point>,
     ends: [Spot; 2],
-    used: bool,
 }
 
 /// A line crossing the outline.
@@ -162,7 +158,7 @@ impl Grid {
     }
 
     /// Cuts a line; `true` when it meets no outline at all.
-    fn cut(&self, line: &Line, region: &[Ring], index: usize, parts: &mut Vec<Part>) -> bool {
+    fn cut(&self, line: &Line, region: &[Ring], parts: &mut Vec<Part>) -> bool {
         let mut crossings: Vec<Crossing> = Vec::new();
         let mut near: Vec<(u32, u32)> = Vec::new();
         for (number, (a, b)) in stretches(line).enumerate() {
@@ -208,7 +204,7 @@ impl Grid {
                 }
                 (true, _) => inside = Some(here),
                 (false, Some(entry)) => {
-                    parts.push(part(line, index, &crossings[entry], crossing));
+                    parts.push(part(line, &crossings[entry], crossing));
                     inside = None;
                 }
                 (false, None) => {}
@@ -217,7 +213,7 @@ impl Grid {
         if line.closed
             && let (Some(entry), Some(leave)) = (inside, crossings.iter().find(|crossing| !crossing.enters))
         {
-            parts.push(part(line, index, &crossings[entry], leave));
+            parts.push(part(line, &crossings[entry], leave));
         }
         false
     }
@@ -265,7 +261,7 @@ fn crossing(
 }
 
 /// The points of a line from one crossing to another, round its end if it is closed.
-fn part(line: &Line, index: usize, entry: &Crossing, leave: &Crossing) -> Part {
+fn part(line: &Line, entry: &Crossing, leave: &Crossing) -> Part {
     let count = line.points.len();
     let mut points = vec![rounded(entry.place)];
     let (first, last) = (entry.along as usize + 1, leave.along as usize);
@@ -275,110 +271,97 @@ fn part(line: &Line, index: usize, entry: &Crossing, leave: &Crossing) -> Part {
         push(&mut points, rounded(line.points[corner]));
     }
     push(&mut points, rounded(leave.place));
-    Part { line: index, points, ends: [entry.spot, leave.spot], used: false }
+    Part { points, ends: [entry.spot, leave.spot] }
 }
 
-/// The parts, and where their ends lie along the outline.
+/// The parts of all lines, to be joined.
 struct Book<'a> {
     region: &'a [Ring],
     parts: Vec<Part>,
-    /// Part and end, along each ring in order.
-    ends: Vec<(usize, usize)>,
-    /// Where each end of each part stands in `ends`.
-    places: Vec<[usize; 2]>,
 }
 
-/// How a thread goes on.
+/// The number of a part, and which of its two ends.
+type End = (usize, usize);
+
+/// A way along the outline from one end to the next.
 struct Joint {
-    part: usize,
-    end: usize,
+    ends: [End; 2],
     way: Vec<Point>,
+    length: f64,
 }
 
 impl Book<'_> {
-    fn file(&mut self) {
-        self.ends = (0..self.parts.len()).flat_map(|part| [(part, 0), (part, 1)]).collect();
-        let spot = |end: &(usize, usize)| self.parts[end.0].ends[end.1];
-        self.ends.sort_by(|one, other| {
-            let (one, other) = (spot(one), spot(other));
-            one.ring.cmp(&other.ring).then(one.side.cmp(&other.side)).then(one.share.total_cmp(&other.share))
-        });
-        self.places = vec![[0; 2]; self.parts.len()];
-        for (place, &(part, end)) in self.ends.iter().enumerate() {
-            self.places[part][end] = place;
+    /// Joins the parts, each end once and nothing to a circle: first from line to line as far as that goes, then what is
+    /// left, the shortest ways first.
+    fn threads(&self, reach: f64) -> Vec<Thread> {
+        let mut joints = self.joints(reach);
+        joints.sort_by(|one, other| one.length.total_cmp(&other.length));
+        let mut knots = Knots::new(self.parts.len(), &joints);
+        for first in 0..self.parts.len() {
+            for end in [1, 0] {
+                let mut here = (first, end);
+                while let Some((part, end)) = knots.go_on(here, &joints) {
+                    here = (part, 1 - end);
+                }
+            }
         }
-    }
-
-    fn threads(&mut self, reach: f64) -> Vec<Thread> {
+        for index in 0..joints.len() {
+            knots.tie(index, &joints);
+        }
+        let mut done = vec![false; self.parts.len()];
         let mut threads = Vec::new();
         for first in 0..self.parts.len() {
-            if std::mem::replace(&mut self.parts[first].used, true) {
-                continue;
+            let free = knots.at[first].iter().position(Option::is_none);
+            if let (false, Some(enter)) = (done[first], free) {
+                threads.push(self.thread((first, enter), &knots.at, &joints, &mut done));
             }
-            // Begin at the end that leads nowhere, so that the other one may lead on.
-            let (mut part, mut enter) = (first, usize::from(self.next(first, 1, reach).is_none()));
-            let mut points = Vec::new();
-            loop {
-                let along = &self.parts[part].points;
-                if enter == 0 {
-                    along.iter().for_each(|point| push(&mut points, *point));
-                } else {
-                    along.iter().rev().for_each(|point| push(&mut points, *point));
-                }
-                let Some(joint) = self.next(part, 1 - enter, reach) else { break };
-                joint.way.into_iter().for_each(|point| push(&mut points, point));
-                self.parts[joint.part].used = true;
-                (part, enter) = (joint.part, joint.end);
-            }
-            threads.push(Thread { points, closed: false });
         }
         threads
     }
 
-    /// Where a thread goes on from an end of a part: to one of the two ends beside it on the outline.
-    fn next(&self, part: usize, end: usize, reach: f64) -> Option<Joint> {
-        let here = self.parts[part].ends[end];
-        let mut beside =
-            [self.beside(self.places[part][end], true), self.beside(self.places[part][end], false)];
-        beside.sort_by_key(|other| other.map(|(part, ..)| std::cmp::Reverse(self.parts[part].line)));
-        beside.into_iter().flatten().find_map(|(other, its_end, forwards)| {
-            if self.parts[other].used {
-                return None;
-            }
-            let there = self.parts[other].ends[its_end];
-            let way = if forwards {
-                self.way(here, there, reach)?
-            } else {
-                let mut way = self.way(there, here, reach)?;
-                way.reverse();
-                way
+    /// Follows a thread from where it begins.
+    fn thread(
+        &self,
+        mut enter: End,
+        at: &[[Option<usize>; 2]],
+        joints: &[Joint],
+        done: &mut [bool],
+    ) -> Thread {
+        let mut points = Vec::new();
+        loop {
+            let (part, end) = enter;
+            done[part] = true;
+            push_all(&mut points, &self.parts[part].points, end == 0);
+            let Some(joint) = at[part][1 - end].map(|index| &joints[index]) else {
+                return Thread { points, closed: false };
             };
-            Some(Joint { part: other, end: its_end, way })
-        })
+            let forwards = joint.ends[0] == (part, 1 - end);
+            push_all(&mut points, &joint.way, forwards);
+            enter = joint.ends[usize::from(forwards)];
+        }
     }
 
-    /// The end after or before a place on its ring.
-    fn beside(&self, place: usize, forwards: bool) -> Option<(usize, usize, bool)> {
-        let ring = |place: usize| {
-            let (part, end) = self.ends[place];
-            self.parts[part].ends[end].ring
-        };
-        let mine = ring(place);
-        // The ends of a ring lie side by side, so its first and last are found by halving.
-        let first = self.ends.partition_point(|(part, end)| self.parts[*part].ends[*end].ring < mine);
-        let after = self.ends.partition_point(|(part, end)| self.parts[*part].ends[*end].ring <= mine);
-        let other = match forwards {
-            true if place + 1 == after => first,
-            true => place + 1,
-            false if place == first => after - 1,
-            false => place - 1,
-        };
-        let (part, end) = self.ends[other];
-        (other != place).then_some((part, end, forwards))
+    /// Every way along the outline from an end to the next that is short enough.
+    fn joints(&self, reach: f64) -> Vec<Joint> {
+        let spot = |end: &End| self.parts[end.0].ends[end.1];
+        let mut ends: Vec<End> = (0..self.parts.len()).flat_map(|part| [(part, 0), (part, 1)]).collect();
+        ends.sort_by(|one, other| {
+            let (one, other) = (spot(one), spot(other));
+            one.ring.cmp(&other.ring).then(one.side.cmp(&other.side)).then(one.share.total_cmp(&other.share))
+        });
+        let mut joints = Vec::new();
+        for ring in ends.chunk_by(|one, other| spot(one).ring == spot(other).ring) {
+            for (from, to) in ring.iter().zip(ring.iter().skip(1).chain(ring.first())) {
+                if let Some((way, length)) = self.way(spot(from), spot(to), reach) {
+                    joints.push(Joint { ends: [*from, *to], way, length });
+                }
+            }
+        }
+        joints
     }
 
-    /// The corners of the outline from one spot forwards to another; `None` when the way is too long.
-    fn way(&self, from: Spot, to: Spot, reach: f64) -> Option<Vec<Point>> {
+    /// The corners of the outline from one spot forwards to another, and how long the way is; `None` when it is too long.
+    fn way(&self, from: Spot, to: Spot, reach: f64) -> Option<(Vec<Point>, f64)> {
         let ring = &self.region[from.ring].0;
         let place = |spot: Spot| {
             let after = if spot.side + 1 == ring.len() { 0 } else { spot.side + 1 };
@@ -403,14 +386,73 @@ impl Book<'_> {
             }
             way.push(ring[side]);
         }
-        step(place(to)).then_some(way)
+        step(place(to)).then_some((way, length))
+    }
+}
+
+/// Which joints are made.
+struct Knots {
+    /// The joint made at each end of each part.
+    at: Vec<[Option<usize>; 2]>,
+    /// The joints that could be made there.
+    could: Vec<[Vec<usize>; 2]>,
+    /// A part that each part is joined to; itself for the first of its thread.
+    group: Vec<usize>,
+}
+
+impl Knots {
+    fn new(parts: usize, joints: &[Joint]) -> Self {
+        let mut could: Vec<[Vec<usize>; 2]> = vec![Default::default(); parts];
+        for (index, joint) in joints.iter().enumerate() {
+            joint.ends.iter().for_each(|(part, end)| could[*part][*end].push(index));
+        }
+        Self { at: vec![[None; 2]; parts], could, group: (0..parts).collect() }
+    }
+
+    /// Makes a joint from an end, to the part of the later line when there are two, and says where it leads.
+    fn go_on(&mut self, from: End, joints: &[Joint]) -> Option<End> {
+        let other = |index: &usize| {
+            let [one, other] = joints[*index].ends;
+            if one == from { other } else { one }
+        };
+        let mut ways = self.could[from.0][from.1].clone();
+        ways.sort_by_key(|way| std::cmp::Reverse(other(way).0));
+        let way = ways.into_iter().find(|way| self.tie(*way, joints))?;
+        Some(other(&way))
+    }
+
+    /// Makes a joint if both its ends are free and not of one thread; says whether it did.
+    fn tie(&mut self, index: usize, joints: &[Joint]) -> bool {
+        let ends = joints[index].ends;
+        let [one, other] = ends.map(|(part, _)| self.root(part));
+        let free = one != other && ends.iter().all(|(part, end)| self.at[*part][*end].is_none());
+        if free {
+            self.group[one.max(other)] = one.min(other);
+            ends.iter().for_each(|(part, end)| self.at[*part][*end] = Some(index));
+        }
+        free
+    }
+
+    fn root(&mut self, mut part: usize) -> usize {
+        while self.group[part] != part {
+            self.group[part] = self.group[self.group[part]];
+            part = self.group[part];
+        }
+        part
     }
 }
 
 /// The sides of a line, the one that closes it last.
+///
+/// Each is moved off the whole microns in which outlines have their corners, by far less than is printed and far more than
+/// the error of a float, so that a line that is drawn in whole microns, too, goes through no corner and along no side.
 fn stretches(line: &Line) -> impl Iterator<Item = ((f64, f64), (f64, f64))> + '_ {
     let closing = line.points.first().filter(|_| line.closed);
-    line.points.iter().zip(line.points.iter().skip(1).chain(closing)).map(|(from, to)| (*from, *to))
+    let moved = |point: &(f64, f64)| (point.0 + 1.23e-4, point.1 + 4.57e-4);
+    line.points
+        .iter()
+        .zip(line.points.iter().skip(1).chain(closing))
+        .map(move |(from, to)| (moved(from), moved(to)))
 }
 
 /// Positive when `c` lies to the left of the way from `a` to `b`.
@@ -428,6 +470,14 @@ fn rounded((x, y): (f64, f64)) -> Point {
 
 fn length(points: &[Point]) -> f64 {
     points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+}
+
+fn push_all(points: &mut Vec<Point>, more: &[Point], forwards: bool) {
+    if forwards {
+        more.iter().for_each(|point| push(points, *point));
+    } else {
+        more.iter().rev().for_each(|point| push(points, *point));
+    }
 }
 
 fn push(points: &mut Vec<Point>, point: Point) {
