@@ -33,8 +33,8 @@ pub struct Job<'a> {
 /// How far a joint between two rows may go, in spacings.
 const REACH: f64 = 4.0;
 
-/// How far a joint between two lines of a pattern may go, in distances between lines of that density: past one cell. A longer one runs
-/// beside the wall where nothing needs it.
+/// How far a joint between two lines of a pattern may go, in distances between lines of that density: past one cell. A
+/// longer one runs beside the wall where nothing needs it.
 const CELL_REACH: f64 = 2.5;
 
 impl Job<'_> {
