@@ -7,7 +7,8 @@
 //! * [`edit`]: the page of `clayforge edit` is its test;
 //! * [`import`]: parts of every format through the command;
 //! * [`torture`]: parts as potters find them, each in a process of its own;
-//! * [`tidy`]: the layout of the workspace.
+//! * [`tidy`]: the layout of the workspace;
+//! * [`totals`]: what lies on the test meshes behind fill.
 
 mod cases;
 mod cli;
@@ -18,3 +19,4 @@ mod parts;
 mod support;
 mod tidy;
 mod torture;
+mod totals;

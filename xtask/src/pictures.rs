@@ -8,16 +8,18 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-/// The vase of the README, and for each stage whose page shows `NAME.svg` the first of its cases.
+/// The vase of the README, and for each `NAME.svg` or `NAME-WORD.svg` that the page of a stage shows the case behind it.
 pub fn run(args: &[String]) -> Result<(), String> {
     if let Some(word) = args.first() {
         return Err(format!("`{word}` is not known; `pictures` has no options"));
     }
     let root = crate::root();
     put(&root.join("docs/vase.svg"), &vase(&root)?)?;
-    for entry in STAGES.iter().filter(|entry| entry.page.contains(&format!("({}.svg)", entry.name))) {
-        let picture = case(entry.name, entry.page).map_err(|error| format!("{}: {error}", entry.name))?;
-        put(&root.join(format!("crates/stages/{0}/{0}.svg", entry.name)), &picture)?;
+    for entry in STAGES {
+        for (name, after) in pictures(entry.name, entry.page) {
+            let picture = case(entry.name, entry.page, after).map_err(|error| format!("{name}: {error}"))?;
+            put(&root.join(format!("crates/stages/{}/{name}", entry.name)), &picture)?;
+        }
     }
     Ok(())
 }
@@ -49,11 +51,22 @@ fn one_layer(document: &Document, layer: usize) -> Result<String, Error> {
     draw(document, Drawing { layer: Some(layer), ..Drawing::default() })
 }
 
-/// The first case of a page, before and after.
-fn case(stage: &str, page: &str) -> Result<String, String> {
+/// The pictures that a page shows of its own cases, each with where it stands.
+fn pictures<'a>(stage: &str, page: &'a str) -> Vec<(&'a str, usize)> {
+    let links = page.match_indices("](").filter_map(|(at, _)| {
+        let (name, _) = page[at + 2..].split_once(')')?;
+        let word = name.strip_prefix(stage)?.strip_suffix(".svg")?;
+        (word.is_empty() || word.starts_with('-')).then_some((name, at))
+    });
+    links.collect()
+}
+
+/// The first case of a page behind a place, before and after.
+fn case(stage: &str, page: &str, behind: usize) -> Result<String, String> {
+    let find = |fence: &str| page[behind..].find(fence).map(|start| behind + start);
     let (start, form) = ["skein", "svg"]
         .iter()
-        .filter_map(|form| page.find(&format!("```{form} before\n")).map(|start| (start, *form)))
+        .filter_map(|form| find(&format!("```{form} before\n")).map(|start| (start, *form)))
         .min()
         .ok_or("the page has no case")?;
     let section = page[..start].rfind("\n## ").unwrap_or(0);

@@ -1,6 +1,7 @@
 //! Plane geometry.
 
 pub mod boolean;
+pub mod clip;
 mod curves;
 pub mod hatch;
 mod islands;

@@ -324,3 +324,106 @@ proptest! {
         }
     }
 }
+
+mod clipped {
+    use crate::plane::clip::{Line, Thread, threads};
+    use crate::plane::{Point, Ring};
+    use proptest::prelude::*;
+
+    fn ring(points: &[(i32, i32)]) -> Ring {
+        Ring(points.iter().map(|(x, y)| Point::new(*x, *y)).collect())
+    }
+
+    fn line(points: &[(f64, f64)]) -> Line {
+        Line { points: points.to_vec(), closed: false }
+    }
+
+    fn length(thread: &Thread) -> f64 {
+        thread.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
+    }
+
+    #[test]
+    fn lines_are_joined_along_the_outline_and_not_across_a_hole() {
+        let region = [
+            ring(&[(0, 0), (100, 0), (100, 100), (0, 100)]),
+            ring(&[(40, 40), (40, 60), (60, 60), (60, 40)]),
+        ];
+        let level = |y: f64| line(&[(-10.0, y), (110.0, y)]);
+        let lines = [level(20.0), level(50.0), level(80.0)];
+        // Each end is joined once: the middle line's with one neighbour's on either side, and its two parts round the hole.
+        let found = threads(&lines, &region, 45.0, 1.0);
+        assert_eq!(found.len(), 1, "{found:?}");
+        assert!((length(&found[0]) - (100.0 + 100.0 + 2.0 * 40.0 + 2.0 * 30.0 + 40.0)).abs() < 1e-9);
+        assert_eq!(threads(&lines, &region, 35.0, 1.0).len(), 2);
+        let apart = threads(&lines, &region, 5.0, 1.0);
+        assert_eq!(apart.len(), 4);
+    }
+
+    #[test]
+    fn a_line_through_corners_is_neither_lost_nor_longer() {
+        let diamond = [ring(&[(-50, 0), (0, -50), (50, 0), (0, 50)])];
+        let square = [ring(&[(0, 0), (100, 0), (100, 100), (0, 100)])];
+        let across = threads(&[line(&[(-90.0, 0.0), (90.0, 0.0)])], &diamond, 0.0, 1.0);
+        assert_eq!(across.iter().map(length).sum::<f64>(), 100.0);
+        let diagonal = threads(&[line(&[(-9.0, -9.0), (109.0, 109.0)])], &square, 0.0, 1.0);
+        assert!((diagonal.iter().map(length).sum::<f64>() - 100.0 * 2f64.sqrt()).abs() < 1e-9);
+        let beside = threads(&[line(&[(-90.0, 50.0), (90.0, 50.0)])], &diamond, 0.0, 1.0);
+        assert!(beside.is_empty(), "it only touches the tip: {beside:?}");
+    }
+
+    #[test]
+    fn a_closed_line_stays_whole_or_becomes_arcs() {
+        let square = [ring(&[(0, 0), (100, 0), (100, 100), (0, 100)])];
+        let box_at = |x: f64| Line {
+            points: vec![(x, 20.0), (x + 30.0, 20.0), (x + 30.0, 50.0), (x, 50.0)],
+            closed: true,
+        };
+        let found = threads(&[box_at(10.0)], &square, 0.0, 1.0);
+        assert_eq!(found.len(), 1);
+        assert!(found[0].closed && found[0].points.len() == 4);
+        let found = threads(&[box_at(-10.0)], &square, 0.0, 1.0);
+        assert_eq!(found[0].points, [(0, 20), (20, 20), (20, 50), (0, 50)].map(|(x, y)| Point::new(x, y)));
+        assert!(threads(&[box_at(300.0)], &square, 0.0, 1.0).is_empty());
+        assert!(threads(&[box_at(0.0)], &[], 0.0, 1.0).is_empty());
+    }
+
+    proptest! {
+        /// On a grid as coarse as this nearly every line goes through corners and along sides: what comes out lies in the
+        /// region, and without joints it is no longer than what of the lines does.
+        #[test]
+        fn nothing_leaves_the_region(
+            tops in prop::collection::vec(3..12i32, 6),
+            path in prop::collection::vec((-1..13i32, -1..13i32), 2..8),
+        ) {
+            // Steps of different height, side by side.
+            let mut points = vec![(12, 0), (0, 0)];
+            points.splice(0..0, tops.iter().enumerate().flat_map(|(index, top)| {
+                let left = 2 * index as i32;
+                [(left, *top), (left + 2, *top)]
+            }));
+            points.reverse();
+            let scaled: Vec<(i32, i32)> = points.iter().map(|(x, y)| (x * 10, y * 10)).collect();
+            let region = [ring(&scaled)];
+            prop_assert!(region[0].area2() > 0);
+            let begin = [(-50.0, -50.0)];
+            let way: Vec<(f64, f64)> =
+                begin.into_iter().chain(path.iter().map(|(x, y)| (f64::from(x * 10), f64::from(y * 10)))).chain([(-50.0, 200.0)]).collect();
+            let inside = |x: f64, y: f64| {
+                (-1.0..=121.0).contains(&x) && y >= -1.0 && {
+                    let column = |x: f64| tops[((x / 20.0).floor() as usize).min(5)];
+                    y <= f64::from(column((x - 1.0).max(0.0)).max(column(x + 1.0))) * 10.0 + 1.0
+                }
+            };
+            for thread in threads(&[line(&way)], &region, 0.0, 0.5) {
+                for pair in thread.points.windows(2) {
+                    for step in 0..=50 {
+                        let share = f64::from(step) / 50.0;
+                        let at = |from: i32, to: i32| f64::from(from) + f64::from(to - from) * share;
+                        let (x, y) = (at(pair[0].x, pair[1].x), at(pair[0].y, pair[1].y));
+                        prop_assert!(inside(x, y), "{x} {y} of {pair:?}");
+                    }
+                }
+            }
+        }
+    }
+}

@@ -180,3 +180,65 @@ fn a_part_whose_corners_hang_over_a_round_bed_is_refused() {
     let small = block((0.0, 140.0), 140.0, (0.0, 10.0));
     assert!(Carve::default().carve(&small, &round, &mut Notes::default()).is_ok());
 }
+
+/// C2: a last slab counts from three quarters of a layer on.
+#[test]
+fn c2_a_last_slab_of_less_than_three_quarters_is_left_out() {
+    for (height, count) in [(10.0, 25), (10.1, 25), (10.35, 26)] {
+        let (slices, _) = carve(&block((0.0, 20.0), 20.0, (0.0, height)));
+        assert_eq!(slices.layers.len(), count, "{height}");
+    }
+}
+
+/// C4: the larger loop first, counter-clockwise; the hole clockwise.
+#[test]
+fn c4_a_ring_is_an_outside_and_a_hole() {
+    let mut vertices = Vec::new();
+    for (radius, z) in [(15.0, 0.0), (8.0, 0.0), (15.0, 10.0), (8.0, 10.0)] {
+        for corner in 0..48 {
+            let angle = std::f64::consts::TAU * f64::from(corner) / 48.0;
+            vertices.push([20.0 + radius * angle.cos(), 20.0 + radius * angle.sin(), z]);
+        }
+    }
+    let mut faces = Vec::new();
+    let mut wall = |from: u32, to: u32| {
+        for a in 0..48u32 {
+            let b = (a + 1) % 48;
+            faces.extend([[from + a, from + b, to + b], [from + a, to + b, to + a]]);
+        }
+    };
+    wall(0, 96);
+    wall(144, 48);
+    wall(48, 0);
+    wall(96, 144);
+    let (slices, notes) = carve(&mesh(&vertices, &faces));
+    assert_eq!(slices.layers.len(), 25);
+    for loops in areas(&slices) {
+        assert!(loops.len() == 2 && loops[0] > 690.0 && loops[1] < -190.0, "{loops:?}");
+    }
+    assert!(notes.is_empty());
+}
+
+/// C8 and C9 say how far the plane is moved off a row of vertices. Ours is not moved: a vertex on it counts as above it,
+/// and the layer keeps its nominal height.
+#[test]
+fn c8_c9_a_plane_through_vertices_is_not_moved() {
+    let heights = [0.0, 0.2, 0.6, 10.0];
+    let mut profile: Vec<(f64, f64)> = heights.iter().map(|z| (20.0, *z)).collect();
+    profile.extend(heights.iter().rev().map(|z| (0.0, *z)));
+    let triangles: Vec<[u32; 3]> =
+        (0..3u32).flat_map(|row| [[7 - row, row, row + 1], [7 - row, row + 1, 6 - row]]).collect();
+    let (slices, notes) = carve(&prism(&profile, &triangles, 20.0));
+    let heights: Vec<i32> = slices.layers.iter().map(|layer| layer.z.0).collect();
+    assert_eq!(heights, (0..25).map(|layer| 200 + 400 * layer).collect::<Vec<i32>>());
+    assert!(areas(&slices).iter().all(|loops| *loops == [400.0]) && notes.is_empty());
+}
+
+/// C13: nothing to print is said and stops the chain.
+#[test]
+fn c13_a_part_flatter_than_a_layer_is_refused() {
+    let flat = block((0.0, 20.0), 20.0, (0.0, 0.05));
+    let error =
+        Carve::default().carve(&flat, &Machine::default(), &mut Notes::default()).expect_err("too flat");
+    assert!(error.hint.is_some(), "{error}");
+}

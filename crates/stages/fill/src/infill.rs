@@ -1,11 +1,15 @@
-//! Lines between the walls: solid at surfaces, sparse inside.
+//! What lies between the walls: solid lines at surfaces, a sparse pattern inside.
 
-use crate::Fill;
+use crate::pattern::Cells;
 use crate::source::Source;
 use crate::strand::{Strand, spacing};
+use crate::surface::Surface;
+use crate::{Fill, Pattern, rings};
+use shape::plane::clip;
 use shape::plane::hatch::{End, Hatch, Intervals, Rows, Span};
 use shape::plane::{islands, offset};
-use skein::{Direction, Feature, Notes, Point, Ratio, Ring};
+use skein::{Angle, Direction, Feature, Notes, Point, Ratio, Ring};
+use std::borrow::Cow;
 
 /// The infill of one layer.
 pub struct Job<'a> {
@@ -13,22 +17,29 @@ pub struct Job<'a> {
     pub fill: &'a Fill,
     /// The layer.
     pub source: &'a Source,
+    /// Which layer it is.
+    pub layer: usize,
     /// Where the middles of its beads may go.
     pub inside: &'a [Ring],
     /// The direction of the lines.
     pub direction: Direction,
     /// Which of the two directions that layers have by turns it has; none for a bridge.
     pub turn: Option<usize>,
-    /// The layers that hide a place from above and below; `None` when all of it is surface.
-    pub surroundings: Option<Vec<&'a Source>>,
+    /// The layers that hide a place from above and below, and how far each is grown first; `None` when all of it is
+    /// surface.
+    pub surroundings: Option<Vec<(&'a Source, f64)>>,
 }
 
 /// How far a joint between two rows may go, in spacings.
 const REACH: f64 = 4.0;
 
+/// How far a joint between two lines of a pattern may go, in distances between lines of that density: past one cell. A
+/// longer one runs beside the wall where nothing needs it.
+const CELL_REACH: f64 = 2.5;
+
 impl Job<'_> {
     /// Lays the infill.
-    pub fn run(&self, layer: usize, strands: &mut Vec<Strand>, notes: &mut Notes) {
+    pub fn run(&self, strands: &mut Vec<Strand>, notes: &mut Notes) {
         let step = spacing(&self.source.bead);
         let density = self.fill.density.f64();
         let turned = self.direction.unit();
@@ -36,24 +47,26 @@ impl Job<'_> {
             Some(around) if density < 1.0 => around,
             _ => {
                 for island in islands(self.inside) {
-                    self.solid(layer, &island, turned, step, strands, notes);
+                    self.solid(&island, turned, step, strands, notes);
                 }
                 return;
             }
         };
-        let solid = if self.fill.base_layers == 0 && self.fill.top_layers == 0 {
+        let solid = if surroundings.is_empty() {
             Surface::default()
         } else {
             let hatch = Hatch::new(self.inside, turned, step);
             // Layers of one direction and spacing share the rows of those around them.
-            let shared = |source: &&Source| self.turn.filter(|_| spacing(&source.bead) == step);
+            let shared = |(source, grown): &&(&Source, f64)| {
+                self.turn.filter(|_| *grown == 0.0 && spacing(&source.bead) == step)
+            };
             let own: Vec<Intervals> = surroundings
                 .iter()
                 .filter(|source| shared(source).is_none())
-                .map(|source| Intervals::new(&source.edges, turned, step))
+                .map(|(source, grown)| Intervals::new(&source.grown(*grown), turned, step))
                 .collect();
             let rows =
-                surroundings.iter().filter_map(|source| Some(source.rows(shared(source)?, turned, step)));
+                surroundings.iter().filter_map(|source| Some(source.0.rows(shared(&source)?, turned, step)));
             let around: Vec<&Intervals> = rows.chain(&own).collect();
             let surface = Surface::find(&hatch, &around, step);
             for points in hatch.threads(&surface.rows, REACH * step) {
@@ -62,24 +75,77 @@ impl Job<'_> {
             surface
         };
         if density > 0.0 {
-            let apart = step / density;
-            let hatch = Hatch::new(self.inside, turned, apart);
-            let mut rows = Rows::default();
-            for (index, row) in hatch.rows().iter().enumerate() {
-                let height = hatch.height(hatch.first() + index as i64);
-                without(row, solid.row((height / step).round() as i64), step, &mut rows);
-                rows.end_row();
+            self.sparse(&solid, turned, step, strands, notes);
+        }
+    }
+
+    /// Lays what is between the walls and is no surface.
+    fn sparse(
+        &self,
+        solid: &Surface,
+        turned: (f64, f64),
+        step: f64,
+        strands: &mut Vec<Strand>,
+        notes: &mut Notes,
+    ) {
+        let apart = step / self.fill.density.f64();
+        match (self.fill.pattern, Cells::new(self.fill, step)) {
+            (Pattern::Line, _) => self.rows(solid, turned, step, apart, strands),
+            (Pattern::Concentric, _) => {
+                rings::lay(&self.room(solid, turned, step), apart, self.source, strands);
             }
-            for points in hatch.threads(&rows, REACH * apart) {
-                self.lay(points, Ratio::ONE, strands);
+            (_, Some(cells)) => self.cells(&cells, &self.room(solid, turned, step), step, apart, strands),
+            (_, None) => {
+                notes.layer(
+                    self.layer,
+                    "so much clay leaves no room for the cells of the pattern; lines are laid",
+                );
+                self.rows(solid, turned, step, apart, strands);
             }
+        }
+    }
+
+    /// Parallel lines.
+    fn rows(&self, solid: &Surface, turned: (f64, f64), step: f64, apart: f64, strands: &mut Vec<Strand>) {
+        let hatch = Hatch::new(self.inside, turned, apart);
+        let mut rows = Rows::default();
+        for (index, row) in hatch.rows().iter().enumerate() {
+            let height = hatch.height(hatch.first() + index as i64);
+            without(row, solid.row((height / step).round() as i64), step, &mut rows);
+            rows.end_row();
+        }
+        for points in hatch.threads(&rows, REACH * apart) {
+            self.lay(points, Ratio::ONE, strands);
+        }
+    }
+
+    /// Cells of a pattern, whose lines go on along the border from one to the next.
+    fn cells(&self, cells: &Cells, room: &[Ring], step: f64, apart: f64, strands: &mut Vec<Strand>) {
+        let turn = self.fill.pattern.turn(self.layer);
+        let direction = Angle(self.fill.begin_rotation.0 + turn.0).direction().unit();
+        for island in islands(room) {
+            let lines = cells.lines(&island, direction, step);
+            for thread in clip::threads(&lines, &island, CELL_REACH * apart, 2.0 * step) {
+                if thread.closed {
+                    strands.push(Strand::ring(Feature::Infill, thread.points));
+                } else {
+                    self.lay(thread.points, Ratio::ONE, strands);
+                }
+            }
+        }
+    }
+
+    /// Where sparse infill may go: inside the walls and not in what is solid.
+    fn room(&self, solid: &Surface, turned: (f64, f64), step: f64) -> Cow<'_, [Ring]> {
+        match solid.without(self.inside, turned, step) {
+            Some(room) => Cow::Owned(room),
+            None => Cow::Borrowed(self.inside),
         }
     }
 
     /// Fills an island, with as much clay as there is room.
     fn solid(
         &self,
-        layer: usize,
         island: &[Ring],
         turned: (f64, f64),
         step: f64,
@@ -99,7 +165,7 @@ impl Job<'_> {
         let wanted = room * 1e6 / (length * step);
         let flow = wanted.clamp(LEAST, MOST);
         if (flow - wanted).abs() > 1e-9 {
-            notes.layer(layer, "the room between the walls is too narrow for even infill; it holds more or less clay than there is room");
+            notes.layer(self.layer, "the room between the walls is too narrow for even infill; it holds more or less clay than there is room");
         }
         let flow = Ratio::from_f64((flow * 1000.0).round() / 1000.0).unwrap_or(Ratio::ONE);
         for points in threads {
@@ -108,11 +174,13 @@ impl Job<'_> {
     }
 
     fn lay(&self, points: Vec<Point>, flow: Ratio, strands: &mut Vec<Strand>) {
-        if points.len() < 2 {
-            return;
+        for points in without_sharp_corners(points, self.fill.sharpest_angle, spacing(&self.source.bead)) {
+            if points.len() < 2 {
+                continue;
+            }
+            let flows = if flow == Ratio::ONE { Vec::new() } else { vec![flow; points.len() - 1] };
+            strands.push(Strand { feature: Feature::Infill, points, flows, closed: false });
         }
-        let flows = if flow == Ratio::ONE { Vec::new() } else { vec![flow; points.len() - 1] };
-        strands.push(Strand { feature: Feature::Infill, points, flows, closed: false });
     }
 }
 
@@ -120,157 +188,29 @@ impl Job<'_> {
 const LEAST: f64 = 0.67;
 const MOST: f64 = 1.34;
 
-/// The parts of a hatch that are seen from above or below.
-#[derive(Default)]
-struct Surface {
-    first: i64,
-    rows: Rows,
-}
-
-impl Surface {
-    /// What lies in the hatch and not inside the walls of all surrounding layers.
-    fn find(hatch: &Hatch, around: &[&Intervals], step: f64) -> Self {
-        let seen: Vec<Vec<(f64, f64)>> = hatch
-            .rows()
-            .iter()
-            .enumerate()
-            .map(|(index, row)| {
-                let number = hatch.first() + index as i64;
-                let mut seen = Vec::new();
-                for span in row {
-                    let (left, right) = (span.left.x, span.right.x);
-                    let hides =
-                        |cover: &&Intervals| cover.row(number).any(|(from, to)| from <= left && right <= to);
-                    // Nearly every span is hidden whole.
-                    let mut rest: Vec<&Intervals> = Vec::new();
-                    rest.extend(around.iter().filter(|cover| !hides(cover)));
-                    if rest.is_empty() {
-                        continue;
-                    }
-                    let mut hidden = vec![(left, right)];
-                    for cover in rest {
-                        hidden = common(&hidden, cover.row(number));
-                    }
-                    without_hidden((left, right), &hidden, &mut seen);
-                }
-                seen
-            })
-            .collect();
-        if seen.iter().all(Vec::is_empty) {
-            return Self::default();
-        }
-        let kept = without_specks(seen, 4.0 * step * step, step);
-        // A surface is laid a bead farther than it is seen, so that it rests on what is beside it.
-        let mut rows = Rows::default();
-        for (index, row) in hatch.rows().iter().enumerate() {
-            let near = index.saturating_sub(1)..(index + 2).min(kept.len());
-            let mut wide: Vec<(f64, f64)> =
-                kept[near].iter().flatten().map(|(left, right)| (left - step, right + step)).collect();
-            wide.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
-            inside(row, &wide, 2.0 * step, &mut rows);
-            rows.end_row();
-        }
-        Self { first: hatch.first(), rows }
+/// A thread cut where it turns back more sharply than an angle between its two sides. What is then shorter than `least`
+/// is left out: it was only the way from one line to the next.
+fn without_sharp_corners(points: Vec<Point>, sharpest: Angle, least: f64) -> Vec<Vec<Point>> {
+    let limit = Angle(180_000 - sharpest.0).direction().unit().0;
+    let turns_back = |corner: &[Point]| {
+        let (x, y) = corner[0].delta(corner[1]);
+        let (u, v) = corner[1].delta(corner[2]);
+        let lengths = corner[0].distance(corner[1]) * corner[1].distance(corner[2]);
+        ((x * u + y * v) as f64) < limit * lengths
+    };
+    if sharpest.0 == 0 {
+        return vec![points];
     }
-
-    fn row(&self, number: i64) -> &[Span] {
-        usize::try_from(number - self.first).map_or(&[], |row| self.rows.row(row))
+    let cuts =
+        points.windows(3).enumerate().filter(|(_, corner)| turns_back(corner)).map(|(index, _)| index + 1);
+    let mut parts = Vec::new();
+    let mut from = 0;
+    for cut in cuts.chain([points.len() - 1]) {
+        parts.push(points[from..=cut].to_vec());
+        from = cut;
     }
-}
-
-/// What two sorted lists of intervals have in common.
-fn common(one: &[(f64, f64)], other: impl Iterator<Item = (f64, f64)> + Clone) -> Vec<(f64, f64)> {
-    let mut both = Vec::with_capacity(one.len());
-    for &(left, right) in one {
-        for (start, end) in other.clone() {
-            let (from, to) = (left.max(start), right.min(end));
-            if from < to {
-                both.push((from, to));
-            }
-        }
-    }
-    both
-}
-
-/// An interval without sorted others.
-fn without_hidden(whole: (f64, f64), without: &[(f64, f64)], out: &mut Vec<(f64, f64)>) {
-    let mut from = whole.0;
-    for &(left, right) in without {
-        if left > from {
-            out.push((from, left));
-        }
-        from = from.max(right);
-    }
-    if whole.1 > from {
-        out.push((from, whole.1));
-    }
-}
-
-/// Drops patches, connected from row to row, smaller than an area in square microns.
-fn without_specks(rows: Vec<Vec<(f64, f64)>>, least: f64, step: f64) -> Vec<Vec<(f64, f64)>> {
-    let mut parent: Vec<usize> = Vec::new();
-    let mut areas: Vec<f64> = Vec::new();
-    let mut above: Vec<((f64, f64), usize)> = Vec::new();
-    let mut labels: Vec<Vec<usize>> = Vec::with_capacity(rows.len());
-    fn root(parent: &mut [usize], mut node: usize) -> usize {
-        while parent[node] != node {
-            parent[node] = parent[parent[node]];
-            node = parent[node];
-        }
-        node
-    }
-    for row in &rows {
-        let mut here = Vec::with_capacity(row.len());
-        for &span in row {
-            let node = parent.len();
-            parent.push(node);
-            areas.push((span.1 - span.0) * step);
-            for &(other, label) in &above {
-                if other.0 < span.1 && span.0 < other.1 {
-                    let (one, two) = (root(&mut parent, node), root(&mut parent, label));
-                    if one != two {
-                        parent[one.max(two)] = one.min(two);
-                        areas[one.min(two)] += areas[one.max(two)];
-                    }
-                }
-            }
-            here.push((span, node));
-        }
-        labels.push(here.iter().map(|(_, node)| *node).collect());
-        above = here;
-    }
-    rows.into_iter()
-        .zip(labels)
-        .map(|(row, labels)| {
-            let kept =
-                row.into_iter().zip(labels).filter(|(_, label)| areas[root(&mut parent, *label)] >= least);
-            kept.map(|(span, _)| span).collect()
-        })
-        .collect()
-}
-
-/// The parts of a row's spans inside sorted intervals. An end nearer than `snap` to the span's own end goes there.
-fn inside(row: &[Span], wide: &[(f64, f64)], snap: f64, parts: &mut Rows) {
-    for span in row {
-        let mut run: Option<(f64, f64)> = None;
-        let mut close = |run: Option<(f64, f64)>| {
-            let Some((from, to)) = run else { return };
-            let left = if from - span.left.x < snap { span.left } else { End::cut(from) };
-            let right = if span.right.x - to < snap { span.right } else { End::cut(to) };
-            parts.push(Span { left, right });
-        };
-        for &(left, right) in wide {
-            let (from, to) = (left.max(span.left.x), right.min(span.right.x));
-            if from >= to {
-                continue;
-            }
-            match &mut run {
-                Some((_, end)) if from - *end < snap => *end = end.max(to),
-                _ => close(run.replace((from, to))),
-            }
-        }
-        close(run);
-    }
+    parts.retain(|part| part.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() >= least);
+    parts
 }
 
 /// A row's spans without others; pieces shorter than `least` are dropped.

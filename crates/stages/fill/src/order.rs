@@ -1,20 +1,31 @@
 //! In which order a layer's strands are laid, and where each begins.
 
+use crate::source::Source;
 use crate::strand::{Island, Strand};
 use crate::{Fill, Start, ThreadSequence};
-use skein::{Feature, Point};
+use skein::{Feature, Point, Ring};
 
 /// Puts every layer in order, each starting from where the one before ended.
-pub fn layers(layers: Vec<Vec<Island>>, fill: &Fill) -> Vec<Vec<Island>> {
+pub fn layers(layers: Vec<Vec<Island>>, sources: &[Source], fill: &Fill) -> Vec<Vec<Island>> {
     let mut here = fill.seam;
-    // On the bed the outermost wall goes first: it shows where the part lies and sticks best.
-    let sequence =
-        |index| if index == 0 { ThreadSequence::PerimeterLoopsInfill } else { fill.thread_sequence };
+    let sequence = |index| if index == 0 { fill.first_layer_sequence } else { fill.thread_sequence };
     layers
         .into_iter()
+        .zip(sources)
         .enumerate()
-        .map(|(index, islands)| layer(islands, fill, sequence(index), &mut here))
+        .map(|(index, (islands, source))| {
+            if fill.start == Start::LowerLeft {
+                here = lower_left(&source.outlines).unwrap_or(here);
+            }
+            layer(islands, fill, sequence(index), &mut here)
+        })
         .collect()
+}
+
+/// The corner with the least x + y; of several the lowest.
+fn lower_left(outlines: &[Ring]) -> Option<Point> {
+    let corners = outlines.iter().flat_map(|outline| outline.0.iter().copied());
+    corners.min_by_key(|corner| (i64::from(corner.x) + i64::from(corner.y), corner.y))
 }
 
 fn layer(mut islands: Vec<Island>, fill: &Fill, sequence: ThreadSequence, here: &mut Point) -> Vec<Island> {

@@ -2,11 +2,13 @@
 
 use crate::strand::{Island, Strand};
 use shape::plane::hatch::Intervals;
+use shape::plane::offset;
 use skein::{
     Bead, Direction, Error, Facts, Feature, Layer, Line, Micron, Move, Nozzle, Point, Point3, Ratio, Ring,
     Side, Tag,
 };
 use skein::{Mark, boundary};
+use std::borrow::Cow;
 use std::sync::OnceLock;
 
 /// What fill needs of a layer.
@@ -108,6 +110,11 @@ impl Source {
         self.rows[turn].get_or_init(|| Intervals::new(&self.edges, turned, step))
     }
 
+    /// What the walls enclose, grown by a distance in microns.
+    pub fn grown(&self, distance: f64) -> Cow<'_, [Ring]> {
+        if distance > 0.0 { Cow::Owned(offset(&self.edges, distance)) } else { Cow::Borrowed(&self.edges) }
+    }
+
     /// The layer with everything that is laid on it.
     pub fn write(&self, islands: &[Island], direction: Direction) -> Vec<Line> {
         let strands = islands.iter().flat_map(|island| &island.strands);
@@ -171,6 +178,11 @@ impl Strand {
 
     /// A closed wall.
     pub fn wall(feature: fn(Side) -> Feature, ring: Ring) -> Self {
-        Self { feature: feature(Side::of(&ring)), points: ring.0, flows: Vec::new(), closed: true }
+        Self::ring(feature(Side::of(&ring)), ring.0)
+    }
+
+    /// A closed bead.
+    pub fn ring(feature: Feature, points: Vec<Point>) -> Self {
+        Self { feature, points, flows: Vec::new(), closed: true }
     }
 }

@@ -7,13 +7,13 @@ use shape::plane::{Offset, all_simplified, dab, facing, offset, offset_with_loss
 use skein::{Feature, Ring, Side};
 
 /// A wall keeps no corner nearer to a straight line than half a hundredth of a bead.
-const FINENESS: f64 = 200.0;
+pub const FINENESS: f64 = 200.0;
 
 /// Lays the walls of a layer and gives the region in which the middles of infill beads may go.
-pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>) -> Vec<Ring> {
+pub fn lay(source: &Source, fill: &Fill, walls: u32, solid: bool, strands: &mut Vec<Strand>) -> Vec<Ring> {
     let step = spacing(&source.bead);
     let overlap = fill.overlap.f64() * step;
-    if fill.walls == 0 {
+    if walls == 0 {
         // Infill up to the outline; the flank of an infill bead ends there like that of a wall would.
         return if overlap > 0.0 { offset(&source.edges, overlap) } else { source.edges.clone() };
     }
@@ -22,7 +22,7 @@ pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>)
     loop {
         let next = offset_with_loss(&wall, -step);
         level += 1;
-        let last = level == fill.walls || next.rings.is_empty();
+        let last = level == walls || next.rings.is_empty();
         // Where the next wall fits everywhere, nothing is too narrow for this one.
         let narrow = next.lost >= step || has_small(&wall, step);
         let wanted = narrow || (last && overlap > 0.0);
@@ -31,15 +31,26 @@ pub fn lay(source: &Source, fill: &Fill, solid: bool, strands: &mut Vec<Strand>)
             fill_gaps(&room.rings, &next, step, source, strands);
         }
         let feature = if level == 1 { Feature::Edge } else { Feature::Loop };
-        if room.lost < step && !has_small(&wall, step) {
-            strands.extend(wall.into_iter().map(|ring| Strand::wall(feature, ring)));
-        } else {
-            strands.extend(relieved(wall, &room, feature, step, source));
-        }
+        strands.extend(laid(wall, &room, feature, step, source));
         if last {
             return if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
         }
         wall = all_simplified(&next.rings, step / FINENESS);
+    }
+}
+
+/// Walls with as much clay on each stretch as there is room. `inside` is what they enclose, half a bead from their middles.
+pub fn laid(
+    wall: Vec<Ring>,
+    inside: &Offset,
+    feature: fn(Side) -> Feature,
+    step: f64,
+    source: &Source,
+) -> Vec<Strand> {
+    if inside.lost < step && !has_small(&wall, step) {
+        wall.into_iter().map(|ring| Strand::wall(feature, ring)).collect()
+    } else {
+        relieved(wall, inside, feature, step, source)
     }
 }
 

@@ -1,6 +1,11 @@
 #![doc = include_str!("../README.md")]
 
-use shape::plane::{MiddleLine, all_simplified, offset_with_loss, thin_parts};
+mod exact;
+
+#[cfg(test)]
+mod tests;
+
+use shape::plane::{MiddleLine, all_simplified, offset, offset_with_loss, thin_parts};
 use skein::{
     Bead, Choice, Error, Facts, Feature, Layer, Line, Micron, Move, Notes, Point, Point3, Ratio, Ring,
     Settings, Side, Skein, Stage, Tag, boundary,
@@ -15,6 +20,28 @@ pub struct Inset {
     /// The narrowest bead the nozzle can lay, as a share of the bead width. Parts thinner than that come out this wide.
     #[setting(default = 0.4, min = 0.1, max = 1.0)]
     pub least_width: Ratio,
+    /// How near to each other the middles of two walls may come. Where a part leaves them less, one bead on its middle
+    /// takes the place of both; 0 lays both as long as they fit, and fill lets them share the room.
+    #[setting(default = 0.0, min = 0.0, max = 1.0, unit = "beads")]
+    pub overlap_removal_width: Ratio,
+    /// Which face of a part with only one bead comes out as drawn, when it lies between a hole and the outside.
+    #[setting(default = ExactWall::Neither)]
+    pub exact_wall: ExactWall,
+    /// How wide a bead lies on a layer that bridges a gap, as a share of the nominal width: it is pulled thin, or sags.
+    /// Its wall runs half of that inside the outline. How much clay it gets there says `speed.bridge_flow`.
+    #[setting(default = 1.0, min = 0.3, max = 2.0)]
+    pub bridge_width: Ratio,
+}
+
+/// Which face of a part with only one bead comes out as drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
+pub enum ExactWall {
+    /// The bead lies on the middle and misses both faces equally.
+    Neither,
+    /// The hole: what goes in there fits.
+    Hole,
+    /// The outside: what is seen is as drawn.
+    Outside,
 }
 
 /// What becomes of parts thinner than a bead.
@@ -46,10 +73,17 @@ impl Inset {
         let bead = facts.bead()?.of_height(layer.height(facts)?);
         let z = layer.nozzle_z(facts)?.0;
         let outlines = boundary(&layer.lines);
-        let half = bead.width.um() / 2.0;
-        let shrunk = offset_with_loss(&outlines, -half);
-        let middles = thin_parts(&outlines, &shrunk, bead.width.um());
-        let walls = all_simplified(&shrunk.rings, bead.width.um() / FINENESS);
+        let bridges = layer.lines.iter().any(|line| matches!(line, Line::Rotation(Tag::BridgeRotation, _)));
+        let width = bead.width.um() * if bridges { self.bridge_width.f64() } else { 1.0 };
+        // The narrowest part that has room for two walls.
+        let apart = self.overlap_removal_width.f64() * width;
+        let core = offset_with_loss(&outlines, -(width + apart) / 2.0);
+        let mut middles = thin_parts(&outlines, &core, width + apart);
+        for middle in &mut middles {
+            exact::lay(middle, self.exact_wall, &outlines, width);
+        }
+        let walls = if apart > 0.0 { offset(&core.rings, apart / 2.0) } else { core.rings };
+        let walls = all_simplified(&walls, width / FINENESS);
         let homes = homes(&outlines, &walls);
         let mut lines =
             Vec::with_capacity(layer.lines.len() + walls.iter().map(|wall| wall.0.len() + 6).sum::<usize>());

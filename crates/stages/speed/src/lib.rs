@@ -24,6 +24,12 @@ pub struct Speed {
     /// The speed of the first layer, as a share of the others'. Slower sticks better.
     #[setting(default = 0.5, min = 0.05, max = 2.0)]
     pub first_layer: Ratio,
+    /// The speed of the outermost wall on the first layer, as a share of what it would have there.
+    #[setting(default = 1.0, min = 0.05, max = 2.0)]
+    pub first_layer_perimeter: Ratio,
+    /// The speed of travels on the first layer, as a share. Slower pulls less at what has just been laid.
+    #[setting(default = 1.0, min = 0.05, max = 1.0)]
+    pub first_layer_travel: Ratio,
     /// The speed of the outermost wall, as a share. Less makes a cleaner face, but clay likes a feed that stays the
     /// same: each change of it shows as a thicker or thinner bead until the pressure has followed.
     #[setting(default = 1.0, min = 0.05, max = 2.0)]
@@ -32,6 +38,24 @@ pub struct Speed {
     /// straight.
     #[setting(default = 1.0, min = 0.05, max = 2.0)]
     pub bridge: Ratio,
+    /// How much clay the outermost wall gets, as a share of what its bead is made of. Less keeps its face from bulging;
+    /// too little does not bind.
+    #[setting(default = 1.0, min = 0.1, max = 3.0)]
+    pub perimeter_flow: Ratio,
+    /// How much clay a bead gets on layers that bridge a gap. Less hangs through less.
+    #[setting(default = 1.0, min = 0.1, max = 3.0)]
+    pub bridge_flow: Ratio,
+    /// How much clay a bead gets on the first layer, but for the outermost wall. More fills what the bed is uneven by.
+    #[setting(default = 1.0, min = 0.1, max = 3.0)]
+    pub first_layer_flow: Ratio,
+    /// How much clay the outermost wall gets on the first layer.
+    #[setting(default = 1.0, min = 0.1, max = 3.0)]
+    pub first_layer_perimeter_flow: Ratio,
+    /// Whether a bead that gets less clay is laid faster by as much, and one that gets more slower, so that equally much
+    /// is pushed out each second: a pump that answers late then has nothing to answer to. No bead is laid faster than a
+    /// travel.
+    #[setting(default = false)]
+    pub constant_flow: bool,
 }
 
 impl Stage for Speed {
@@ -46,6 +70,16 @@ impl Stage for Speed {
         let orbital = (self.feed.mm_per_s() * self.orbital.f64() * 1000.0).round() / 1000.0;
         facts.orbital_feed = Feed::from_mm_per_s(orbital.max(0.001));
         skein.state(&facts)?;
+        if self.changes_flow() {
+            let nozzles = skein.nozzles();
+            let flow = |layer: usize| nozzles.get(layer).map_or(Ratio::ONE, |nozzle| nozzle.flow);
+            self.pour(0, Ratio::ONE, &mut skein.head);
+            self.pour(usize::MAX, flow(skein.layers.len()), &mut skein.tail);
+            skein.each(|index, layer| {
+                self.pour(index, flow(index), &mut layer.lines);
+                Ok(())
+            })?;
+        }
         // Whatever moves before the first layer lies on the bed like the first layer.
         self.pace(0, &mut skein.head)?;
         self.pace(usize::MAX, &mut skein.tail)?;
@@ -62,14 +96,15 @@ impl Speed {
     fn pace(&self, layer: usize, lines: &mut [Line]) -> Result<(), Error> {
         let mut nozzle = Nozzle::default();
         let mut bridge = false;
+        let travel = self.travel(layer)?;
         let (mut has_travelled, mut has_laid) = (false, false);
         for line in lines {
             if let Some(step) = line.as_move_mut() {
                 let said = if nozzle.on { &mut has_laid } else { &mut has_travelled };
                 let feed = match step.feed {
                     Some(feed) => feed,
-                    None if nozzle.on => self.bead(layer, nozzle.feature, bridge)?,
-                    None => self.travel_feed,
+                    None if nozzle.on => self.bead(layer, &nozzle, bridge)?,
+                    None => travel,
                 };
                 if nozzle.feed != Some(feed) || !*said {
                     step.feed = Some(feed);
@@ -86,24 +121,109 @@ impl Speed {
         Ok(())
     }
 
+    /// Whether any bead gets another share of clay than the document says.
+    fn changes_flow(&self) -> bool {
+        let shares =
+            [self.perimeter_flow, self.bridge_flow, self.first_layer_flow, self.first_layer_perimeter_flow];
+        shares.iter().any(|share| *share != Ratio::ONE)
+    }
+
+    /// Gives the beads of one layer their share of clay, on top of the share that they have already.
+    ///
+    /// It is said in front of the first move that has it, and the layer ends with the flow that the document has there:
+    /// it can be moved, copied or left out, too.
+    fn pour(&self, layer: usize, flow: Ratio, lines: &mut Vec<Line>) {
+        let mut nozzle = Nozzle { flow, ..Nozzle::default() };
+        let mut bridge = false;
+        let mut said = flow;
+        let mut poured = Vec::with_capacity(lines.len() + lines.len() / 16);
+        for line in lines.drain(..) {
+            nozzle.follow(&line);
+            let wanted = match &line {
+                Line::Flow(_) => continue,
+                Line::Rotation(Tag::BridgeRotation, _) => {
+                    bridge = true;
+                    said
+                }
+                Line::Close(Tag::BridgeRotation) => {
+                    bridge = false;
+                    said
+                }
+                Line::Close(Tag::Layer) => nozzle.flow,
+                line if nozzle.on && line.as_move().is_some() => {
+                    let share = nozzle.flow.f64() * self.flow(layer, nozzle.feature, bridge);
+                    Ratio::from_f64(share).unwrap_or(nozzle.flow)
+                }
+                _ => said,
+            };
+            if wanted != said {
+                poured.push(Line::Flow(wanted));
+                said = wanted;
+            }
+            poured.push(line);
+        }
+        if said != nozzle.flow {
+            poured.push(Line::Flow(nozzle.flow));
+        }
+        *lines = poured;
+    }
+
+    /// The share of clay of a bead.
+    fn flow(&self, layer: usize, feature: Feature, bridge: bool) -> f64 {
+        let is_edge = matches!(feature, Feature::Edge(_));
+        let mut share = 1.0;
+        if layer == 0 {
+            share *= if is_edge { self.first_layer_perimeter_flow } else { self.first_layer_flow }.f64();
+        }
+        if is_edge {
+            share *= self.perimeter_flow.f64();
+        }
+        if bridge {
+            share *= self.bridge_flow.f64();
+        }
+        share
+    }
+
+    /// The feed of a travel.
+    fn travel(&self, layer: usize) -> Result<Feed, Error> {
+        if layer > 0 || self.first_layer_travel == Ratio::ONE {
+            return Ok(self.travel_feed);
+        }
+        feed(self.travel_feed, self.first_layer_travel.f64(), "a travel")
+    }
+
     /// The feed of a bead. All shares are multiplied first and rounded once.
-    fn bead(&self, layer: usize, feature: Feature, bridge: bool) -> Result<Feed, Error> {
+    fn bead(&self, layer: usize, nozzle: &Nozzle, bridge: bool) -> Result<Feed, Error> {
+        let is_edge = matches!(nozzle.feature, Feature::Edge(_));
         let mut share = 1.0;
         if layer == 0 {
             share *= self.first_layer.f64();
+            if is_edge {
+                share *= self.first_layer_perimeter.f64();
+            }
         }
-        if matches!(feature, Feature::Edge(_)) {
+        if is_edge {
             share *= self.perimeter.f64();
         }
         if bridge {
             share *= self.bridge.f64();
         }
-        Feed::from_mm_per_s(self.feed.mm_per_s() * share).ok_or_else(|| {
-            Error::new(format!(
-                "a bead at {} mm/s times {share} has no speed a machine can move at",
-                self.feed.mm_per_s()
-            ))
-            .hint("bring `feed` and its shares closer to one another")
-        })
+        if self.constant_flow && nozzle.flow != Ratio::ONE {
+            // What gets nearly nothing would be laid at any speed.
+            let most = (self.travel_feed.mm_per_s() / self.feed.mm_per_s()).max(share);
+            share = (share / nozzle.flow.f64().max(1e-6)).min(most);
+        }
+        feed(self.feed, share, "a bead")
     }
+}
+
+/// A share of a feed.
+fn feed(whole: Feed, share: f64, what: &str) -> Result<Feed, Error> {
+    Feed::from_mm_per_s(whole.mm_per_s() * share).ok_or_else(|| {
+        Error::new(format!(
+            "{what} at {} mm/s times {share} has no speed a machine can move at",
+            whole.mm_per_s()
+        ))
+        .hint("bring the feeds and their shares closer to one another")
+    })
 }
