@@ -1,5 +1,6 @@
 //! Where the clay of a layer ends, for travels that leave it.
 
+use shape::plane::cross;
 use skein::{Line, Point, Ring, boundary};
 
 /// The outlines of a layer, each with the box around it: what is far away is left out at once.
@@ -37,9 +38,6 @@ impl Outlines {
 
 /// Whether two lines cross; exact in whole microns.
 fn cross_each_other(a: Point, b: Point, c: Point, d: Point) -> bool {
-    let left = |a: Point, b: Point, c: Point| {
-        let ((bx, by), (cx, cy)) = (a.delta(b), a.delta(c));
-        i128::from(bx) * i128::from(cy) > i128::from(by) * i128::from(cx)
-    };
+    let left = |a: Point, b: Point, c: Point| cross(a, b, c) > 0;
     left(a, b, c) != left(a, b, d) && left(c, d, a) != left(c, d, b)
 }
