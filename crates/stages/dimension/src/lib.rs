@@ -9,8 +9,8 @@ mod relief_tests;
 mod tests;
 
 use meter::{Account, Meter, Total};
-use relief::Relief;
 use rayon::prelude::*;
+use relief::Relief;
 use skein::{Choice, Error, Line, Micron, Notes, Nozzle, Place, Ratio, Reader, Settings, Skein, Stage, Tag};
 
 /// Puts an E word on every move that lays clay.
@@ -87,7 +87,8 @@ impl Stage for Dimension {
         let mut zero = 0;
         for (index, clay) in clay.into_iter().enumerate() {
             let clay = clay.map_err(|error| error.at(Place::Layer(index)))?;
-            let reset = self.is_beyond(meter.rounded(below)?.saturating_sub(zero)) && clay != Total::default();
+            let reset =
+                self.is_beyond(meter.rounded(below)?.saturating_sub(zero)) && clay != Total::default();
             if reset {
                 zero = meter.rounded(below)?;
             }

@@ -14,9 +14,8 @@ impl Outlines {
 
     /// Whether a place lies in the clay: inside more outlines than holes.
     pub(crate) fn hold(&self, at: Point) -> bool {
-        let within = |low: &Point, high: &Point| {
-            (low.x..=high.x).contains(&at.x) && (low.y..=high.y).contains(&at.y)
-        };
+        let within =
+            |low: &Point, high: &Point| (low.x..=high.x).contains(&at.x) && (low.y..=high.y).contains(&at.y);
         let around = self.0.iter().filter(|(ring, low, high)| within(low, high) && ring.contains(at));
         around.count() % 2 == 1
     }

@@ -124,10 +124,8 @@ impl<'a> Relief<'a> {
     /// For each layer the share of the relief around each travel, in order: nothing for the start of the print. A
     /// travel that goes on in the next layers is one.
     fn shares(&self, gaps: &[Gaps]) -> Vec<Vec<Option<f64>>> {
-        let mut shares: Vec<Vec<Option<f64>>> = gaps
-            .iter()
-            .map(|gaps| gaps.between.iter().map(|gap| Some(self.share(*gap))).collect())
-            .collect();
+        let mut shares: Vec<Vec<Option<f64>>> =
+            gaps.iter().map(|gaps| gaps.between.iter().map(|gap| Some(self.share(*gap))).collect()).collect();
         // The travel that has not come to a bead yet, and the layer where it began.
         let mut open: Option<(Option<usize>, Gap)> = Some((None, Gap::default()));
         for (index, layer) in gaps.iter().enumerate() {
@@ -164,7 +162,12 @@ impl<'a> Relief<'a> {
     }
 
     /// The lines of a layer with their reliefs; `shares` are those of its travels, in order.
-    fn layer(&self, layer: &mut Layer, entering: &Nozzle, shares: &[Option<f64>]) -> Result<Vec<Line>, Error> {
+    fn layer(
+        &self,
+        layer: &mut Layer,
+        entering: &Nozzle,
+        shares: &[Option<f64>],
+    ) -> Result<Vec<Line>, Error> {
         let mut was = *entering;
         let mut pen = Pen::new(entering, layer.lines.len() * 5 / 4);
         // A travel has its relief in front and its restart behind. The one that leads into the layer has only the

@@ -19,8 +19,14 @@ const MOST: f64 = 0.3;
 
 /// The finer beads of a level thread: for each height, from the lowest up, those side by side; and whether it was divided
 /// as was asked. Height and width of the whole bead are in microns.
-pub(crate) fn divided(thread: &Thread, division: Division, height: i32, width: f64) -> (Vec<Vec<Thread>>, bool) {
-    let side_by_side = if division.horizontal > 1 { beside(thread, division.horizontal, width) } else { None };
+pub(crate) fn divided(
+    thread: &Thread,
+    division: Division,
+    height: i32,
+    width: f64,
+) -> (Vec<Vec<Thread>>, bool) {
+    let side_by_side =
+        if division.horizontal > 1 { beside(thread, division.horizontal, width) } else { None };
     let as_asked = division.horizontal == 1 || side_by_side.is_some();
     let mut beads = side_by_side.unwrap_or_else(|| vec![thread.clone()]);
     for bead in &mut beads {

@@ -46,7 +46,10 @@ impl Stage for Skin {
             let mut whole = false;
             let lines = knife.layer(layer, &nozzles[index], &mut whole);
             if whole {
-                notes.layer(index, "walls that are open, too narrow or not level were not divided as was asked");
+                notes.layer(
+                    index,
+                    "walls that are open, too narrow or not level were not divided as was asked",
+                );
             }
             Ok(lines)
         })

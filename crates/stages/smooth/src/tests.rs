@@ -52,7 +52,10 @@ fn sm1_jags_become_their_middle_line() {
     let steps: Vec<_> = done.lines().filter_map(Line::as_move).collect();
     let line = &steps[2..9];
     assert!(line.iter().all(|step| step.to.y == 300));
-    assert_eq!(line.iter().map(|step| step.to.x).collect::<Vec<_>>(), [720, 1440, 2160, 2880, 3600, 4320, 5040]);
+    assert_eq!(
+        line.iter().map(|step| step.to.x).collect::<Vec<_>>(),
+        [720, 1440, 2160, 2880, 3600, 4320, 5040]
+    );
     assert_eq!(line[0].feed.map(|feed| feed.to_string()), Some("523.636".to_owned()));
     assert!(done.lines().any(|line| *line == Line::Flow(Ratio(1_833_333))));
     let (before, after) = (sums(&raw), sums(&done));

@@ -1,12 +1,12 @@
 #![doc = include_str!("../README.md")]
 
-mod way;
 #[cfg(test)]
 mod tests;
+mod way;
 
 use skein::{
-    Error, Feature, Layer, Line, Notes, Nozzle, Pen, Point3, Ratio, Settings, Side, Skein, Span, Stage, Thread,
-    spans,
+    Error, Feature, Layer, Line, Notes, Nozzle, Pen, Point3, Ratio, Settings, Side, Skein, Span, Stage,
+    Thread, spans,
 };
 use way::Way;
 

@@ -58,9 +58,13 @@ fn original(width: f64) -> Stretch {
 /// stages_tests.md X1.
 #[test]
 fn x1_a_straight_line_stays() {
-    let line: Vec<(f64, f64)> = (0..20).map(|step| (f64::from(step * step) * 0.3, f64::from(step * step) * 0.1)).collect();
+    let line: Vec<(f64, f64)> =
+        (0..20).map(|step| (f64::from(step * step) * 0.3, f64::from(step * step) * 0.1)).collect();
     let stage = Stretch { path_over_bead_width: ratio(0.2), ..Stretch::default() };
-    assert_eq!(points(&stage, wall("edge", "outer", 3.0, &line)), line.iter().map(|(x, y)| ((x * 1e3).round() / 1e3, (y * 1e3).round() / 1e3)).collect::<Vec<_>>());
+    assert_eq!(
+        points(&stage, wall("edge", "outer", 3.0, &line)),
+        line.iter().map(|(x, y)| ((x * 1e3).round() / 1e3, (y * 1e3).round() / 1e3)).collect::<Vec<_>>()
+    );
 }
 
 /// stages_tests.md X2 and X3.

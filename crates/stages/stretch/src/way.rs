@@ -95,7 +95,8 @@ impl Cursor<'_> {
         }
         let (from, to) = (points[self.side], points[self.side + 1]);
         let (start, end) = (lengths[self.side], lengths[self.side + 1]);
-        let share = if end > start { ((length - self.turned - start) / (end - start)).clamp(0.0, 1.0) } else { 0.0 };
+        let share =
+            if end > start { ((length - self.turned - start) / (end - start)).clamp(0.0, 1.0) } else { 0.0 };
         let (x, y) = between(from, to);
         (f64::from(from.x) + x * share, f64::from(from.y) + y * share)
     }
