@@ -39,7 +39,8 @@ impl Stage for Skin {
         let nozzles = skein.nozzles();
         let top = skein.layers.iter().rposition(|layer| layer.lines.contains(&Line::On));
         skein.rewrite(notes, |index, layer, notes| {
-            if index < usize::try_from(self.layers_from).unwrap_or(usize::MAX) {
+            // A bead that goes on from layer to layer has no place for others.
+            if nozzles[index].on || index < usize::try_from(self.layers_from).unwrap_or(usize::MAX) {
                 return Ok(layer.lines);
             }
             let knife = Knife { skin: self, height: layer.height(&facts)?.0, width, top: top == Some(index) };

@@ -131,3 +131,15 @@ fn no_division_changes_nothing() {
     let stage = Skin { vertical_wall_divisions: 1, vertical_infill_divisions: 1, ..Skin::default() };
     assert_eq!(craft(&stage, print(3)), print(3));
 }
+
+#[test]
+fn a_layer_that_a_bead_leads_into_stays() {
+    let text = String::from_utf8(print(2).write()).expect("text");
+    let (first, second) = text.split_at(text.rfind("(<layer>").expect("a layer"));
+    let cut = first.rfind("M103\n").expect("a stop");
+    let joined = format!("{}{}{second}", &first[..cut], &first[cut + 5..]);
+    let joined = joined.replacen("(<layer> 0.6 )\n", "(<layer> 0.6 )\nM103\n", 1);
+    let skein = Skein::read(joined.as_bytes()).expect("a skein");
+    assert_eq!(skein.verify(), Ok(()));
+    assert_eq!(craft(&Skin::default(), skein.clone()), skein);
+}
