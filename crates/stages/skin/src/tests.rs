@@ -49,8 +49,11 @@ fn craft(stage: &Skin, skein: Skein) -> Skein {
     skein
 }
 
-/// Every bead of a layer: what for, at what height, with what flow, its length in microns and where it starts.
-fn beads(skein: &Skein, layer: usize) -> Vec<(Feature, i32, i32, f64, (i32, i32))> {
+/// A bead: what for, at what height, with what flow, its length in microns and where it starts.
+type Laid = (Feature, i32, i32, f64, (i32, i32));
+
+/// Every bead of a layer.
+fn beads(skein: &Skein, layer: usize) -> Vec<Laid> {
     let mut nozzle = skein.nozzles()[layer];
     let mut beads = Vec::new();
     for span in spans(&skein.layers[layer].lines) {
