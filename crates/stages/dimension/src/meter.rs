@@ -18,12 +18,21 @@ pub(crate) struct Meter {
 }
 
 /// Clay so far, in hundred-thousandths of an E unit.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Total {
     /// By length, unrounded.
     measured: f64,
     /// What moves said themselves.
     said: i64,
+}
+
+/// Where the E words of a layer count from.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Account {
+    /// All clay below the layer.
+    pub(crate) below: Total,
+    /// What of it an absolute E word leaves out, since E has been set back to zero there.
+    pub(crate) zero: i64,
 }
 
 impl Add for Total {
@@ -62,7 +71,7 @@ impl Meter {
         lines: &mut [Line],
         height: Micron,
         nozzle: Nozzle,
-        below: Total,
+        Account { below, zero }: Account,
     ) -> Result<Total, Error> {
         let mut walk = Walk::new(self, height, nozzle);
         let mut before = self.rounded(below)?;
@@ -74,7 +83,7 @@ impl Meter {
             if let Some(step) = line.as_move_mut() {
                 let word = match self.counting {
                     Counting::Relative => after.saturating_sub(before),
-                    Counting::Absolute => after,
+                    Counting::Absolute => after.saturating_sub(zero),
                 };
                 step.extrusion = Extrusion::new(word);
             }
@@ -83,7 +92,13 @@ impl Meter {
         Ok(below + walk.total)
     }
 
-    fn rounded(&self, total: Total) -> Result<i64, Error> {
+    /// The least step of an E word in hundred-thousandths.
+    pub(crate) fn step(&self) -> i64 {
+        self.step
+    }
+
+    /// A total in hundred-thousandths of E, as E words say it.
+    pub(crate) fn rounded(&self, total: Total) -> Result<i64, Error> {
         let step = self.step as f64;
         let measured = unit::round_within(total.measured / step, LIMIT / step);
         measured.and_then(|steps| (steps * self.step).checked_add(total.said)).ok_or_else(|| {

@@ -2,7 +2,7 @@ use crate::{Counting, Dimension};
 use skein::{Line, Notes, Ratio, Skein, Stage};
 
 /// A skein with a bead of this width and section on layers of this height.
-fn skein(width: &str, height: &str, section: &str, e_unit: &str, body: &str) -> Skein {
+pub(crate) fn skein(width: &str, height: &str, section: &str, e_unit: &str, body: &str) -> Skein {
     let text = format!(
         "(<extruderInitialization>)\nG90\n(<layerHeight> {height} </layerHeight>)\n(<eUnit> {e_unit} </eUnit>)\n\
          (<beadSection> {section} </beadSection>)\n(<edgeWidth> {width} </edgeWidth>)\n(</extruderInitialization>)\n\
@@ -11,14 +11,14 @@ fn skein(width: &str, height: &str, section: &str, e_unit: &str, body: &str) -> 
     Skein::read(text.as_bytes()).expect("a skein")
 }
 
-fn craft(dimension: &Dimension, skein: Skein) -> Skein {
+pub(crate) fn craft(dimension: &Dimension, skein: Skein) -> Skein {
     let skein = dimension.craft(skein, &mut Notes::default()).expect("dimension");
     skein.verify().expect("lawful skein");
     assert_eq!(Skein::read(&skein.write()).as_ref(), Ok(&skein), "reading undoes writing");
     skein
 }
 
-fn words(skein: &Skein) -> Vec<f64> {
+pub(crate) fn words(skein: &Skein) -> Vec<f64> {
     skein.lines().filter_map(|line| line.as_move()?.extrusion.map(|word| word.f64())).collect()
 }
 
@@ -35,6 +35,15 @@ fn dm1_a_stadium_in_make_believe_filament() {
     };
     assert_eq!(e(1.0), [0.41196]);
     assert_eq!(e(0.5), [0.20598]);
+}
+
+/// stages_tests.md DM2: an infill of its own section is a share of the bead's.
+#[test]
+fn dm2_infill_of_its_own_section() {
+    let share = 0.4 * 0.6 * 0.82 / ((0.72 - 0.4) * 0.4 + std::f64::consts::FRAC_PI_4 * 0.4 * 0.4);
+    let body = bead("10.0").replace("M101", &format!("M108 S{share:.6}\nM101"));
+    let words = words(&craft(&Dimension::default(), skein("0.72", "0.4", "stadium", "filament 2.8", &body)));
+    assert!((words[0] - 0.3196).abs() < 5e-5, "{words:?}");
 }
 
 #[test]

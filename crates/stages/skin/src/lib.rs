@@ -1,19 +1,199 @@
 #![doc = include_str!("../README.md")]
 
-use skein::{Error, Notes, Ratio, Settings, Skein, Stage};
+mod divide;
+#[cfg(test)]
+mod tests;
 
-/// Says what it is for.
+use divide::{Division, divided};
+use skein::{
+    Error, Feature, Layer, Line, Notes, Nozzle, Pen, Ratio, Settings, Skein, Span, Stage, Tag, Thread, spans,
+};
+
+/// Divides walls and tops into finer beads.
 #[derive(Clone, Debug, Settings)]
 pub struct Skin {
-    /// What gets better and what gets worse when it grows.
-    #[setting(default = 1.0, min = 0.0, max = 2.0)]
-    pub amount: Ratio,
+    /// The first layer that is divided, counted from 0.
+    #[setting(default = 1, min = 0, max = 1000000)]
+    pub layers_from: u32,
+    /// In how many beads, one upon the other, the outermost wall of a layer is laid. More makes slopes smoother and
+    /// takes as many times longer.
+    #[setting(default = 2, min = 1, max = 3)]
+    pub vertical_wall_divisions: u32,
+    /// In how many beads side by side the outermost wall is laid. A nozzle lays no bead much narrower than it is.
+    #[setting(default = 1, min = 1, max = 3)]
+    pub horizontal_wall_divisions: u32,
+    /// In how many beads, one upon the other, the infill of the topmost layer is laid.
+    #[setting(default = 2, min = 1, max = 3)]
+    pub vertical_infill_divisions: u32,
+    /// How much of a divided wall is left out at each of its ends, in bead widths; for those that `clip` has cut, nothing.
+    #[setting(default = 0.0, min = 0.0, max = 10.0)]
+    pub clip_over_bead_width: Ratio,
 }
 
 impl Stage for Skin {
     const NAME: &'static str = "skin";
 
     fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
-        skein.rewrite(notes, |_index, layer, _notes| Ok(layer.lines))
+        let facts = skein.facts()?;
+        let width = facts.bead_width()?.um();
+        let nozzles = skein.nozzles();
+        let top = skein.layers.iter().rposition(|layer| layer.lines.contains(&Line::On));
+        skein.rewrite(notes, |index, layer, notes| {
+            // A bead that goes on from layer to layer has no place for others.
+            if nozzles[index].on || index < usize::try_from(self.layers_from).unwrap_or(usize::MAX) {
+                return Ok(layer.lines);
+            }
+            let knife = Knife { skin: self, height: layer.height(&facts)?.0, width, top: top == Some(index) };
+            let mut whole = false;
+            let lines = knife.layer(layer, &nozzles[index], &mut whole);
+            if whole {
+                notes.layer(
+                    index,
+                    "walls that are open, too narrow or not level were not divided as was asked",
+                );
+            }
+            Ok(lines)
+        })
+    }
+}
+
+/// The stage at work on one layer.
+struct Knife<'a> {
+    skin: &'a Skin,
+    /// In microns, as is the width.
+    height: i32,
+    width: f64,
+    /// Whether the layer is the topmost.
+    top: bool,
+}
+
+/// A thread in finer beads.
+struct Cut {
+    feature: Feature,
+    /// The nozzle in front of the thread.
+    was: Nozzle,
+    /// The beads of each height, from the lowest up; the last are at the height of the thread.
+    heights: Vec<Vec<Thread>>,
+}
+
+impl Knife<'_> {
+    /// The layer with finer beads. What lies lower comes first on its island, so that the nozzle never goes through what
+    /// already stands beside it.
+    fn layer(&self, layer: Layer, entering: &Nozzle, whole: &mut bool) -> Vec<Line> {
+        let mut islands = self.cuts(&layer.lines, *entering, whole).into_iter();
+        let mut was = *entering;
+        let mut pen = Pen::new(entering, layer.lines.len() * 2);
+        let mut island = islands.next().unwrap_or_default();
+        let mut fresh = true;
+        let mut cuts = 0;
+        for span in spans(&layer.lines) {
+            let lines = span.lines();
+            if lines[0] == Line::Open(Tag::NestedRing) {
+                (island, fresh, cuts) = (islands.next().unwrap_or_default(), true, 0);
+            } else if fresh && is_of_a_bead(&span) {
+                fresh = false;
+                lay_lower(&mut pen, &island);
+            }
+            let cut = match span {
+                Span::Thread(_) => {
+                    cuts += 1;
+                    island.get(cuts - 1).and_then(Option::as_ref)
+                }
+                _ => None,
+            };
+            if let Some(threads) = cut.and_then(|cut| cut.heights.last()) {
+                for (number, thread) in threads.iter().enumerate() {
+                    if number == 0 {
+                        pen.arrive(thread.start);
+                    } else {
+                        pen.go(thread.start, was.feed);
+                    }
+                    pen.thread(thread);
+                }
+            }
+            for line in lines {
+                if cut.is_none() {
+                    pen.pass(line.clone(), &was);
+                }
+                was.follow(line);
+            }
+        }
+        pen.finish(&was)
+    }
+
+    /// For each island, the first being what comes before any, its threads as they are cut; nothing for one that stays.
+    fn cuts(&self, lines: &[Line], mut was: Nozzle, whole: &mut bool) -> Vec<Vec<Option<Cut>>> {
+        let mut islands = Vec::new();
+        let mut island = Vec::new();
+        for span in spans(lines) {
+            match span {
+                Span::Thread(lines) => island.push(self.cut(lines, &was, whole)),
+                Span::Other(Line::Open(Tag::NestedRing)) => islands.push(std::mem::take(&mut island)),
+                _ => {}
+            }
+            span.lines().iter().for_each(|line| was.follow(line));
+        }
+        islands.push(island);
+        islands
+    }
+
+    fn cut(&self, lines: &[Line], was: &Nozzle, whole: &mut bool) -> Option<Cut> {
+        let skin = self.skin;
+        let division = match was.feature {
+            Feature::Edge(_) => Division {
+                vertical: skin.vertical_wall_divisions,
+                horizontal: skin.horizontal_wall_divisions,
+                clip: skin.clip_over_bead_width.f64() * self.width,
+            },
+            Feature::Infill if self.top => {
+                Division { vertical: skin.vertical_infill_divisions, horizontal: 1, clip: 0.0 }
+            }
+            _ => return None,
+        };
+        if division.vertical == 1 && division.horizontal == 1 {
+            return None;
+        }
+        let thread = Thread::read(lines, was).filter(|thread| {
+            let quiet = |piece: &skein::Stretch| piece.step.extrusion.is_none();
+            thread.stretches.iter().all(|piece| quiet(piece) && piece.step.to.z == thread.start.z)
+        });
+        let Some(thread) = thread else {
+            *whole = true;
+            return None;
+        };
+        let (heights, as_asked) = divided(&thread, division, self.height, self.width);
+        *whole |= !as_asked;
+        Some(Cut { feature: was.feature, was: *was, heights })
+    }
+}
+
+/// Whether a bead, or the way to it, begins here.
+fn is_of_a_bead(span: &Span<'_>) -> bool {
+    match span {
+        Span::Thread(_) | Span::Travel(_) | Span::Other(Line::Wall(..)) => true,
+        Span::Other(Line::Open(tag)) => {
+            matches!(tag, Tag::Infill | Tag::Middle | Tag::Skirt | Tag::Support | Tag::Raft)
+        }
+        Span::Other(_) => false,
+    }
+}
+
+/// Lays what is lower than the layer's own height, from the lowest up.
+fn lay_lower(pen: &mut Pen, island: &[Option<Cut>]) {
+    let mut lower: Vec<(i32, &Cut, &Thread)> = island
+        .iter()
+        .flatten()
+        .flat_map(|cut| {
+            let below = cut.heights.split_last().map_or(&[][..], |(_, below)| below);
+            below.iter().flatten().map(move |thread| (thread.start.z, cut, thread))
+        })
+        .collect();
+    lower.sort_by_key(|(z, ..)| *z);
+    for (_, cut, thread) in lower {
+        let (open, close) = cut.feature.tags();
+        pen.push(open);
+        pen.go(thread.start, cut.was.feed);
+        pen.thread(thread);
+        pen.push(close);
     }
 }
