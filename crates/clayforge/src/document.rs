@@ -8,13 +8,35 @@ use std::fmt;
 #[derive(Clone, Debug)]
 pub enum Document {
     /// The parts as triangles.
-    Mesh(Vec<TriangleMesh>),
+    Mesh(Plate),
     /// The loops of each layer.
     Slices(Slices),
     /// Tagged G-code.
     Skein(Skein),
     /// The file for the machine. Its text went to the sink while it was made and is not kept.
     Gcode,
+}
+
+/// The parts that are printed together, before they are cut.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Plate {
+    /// The parts.
+    pub parts: Vec<TriangleMesh>,
+    /// The stages that have been here. Their settings are not kept: an STL file has no room for them.
+    pub done: Vec<String>,
+}
+
+/// What the header of an STL file of ours begins with, in front of the stages that have been here.
+const STL_HEAD: &str = "clayforge mesh: ";
+
+impl Plate {
+    /// The stages that an STL file of ours says it has been through.
+    pub(crate) fn stages_of(bytes: &[u8]) -> Vec<String> {
+        let head =
+            bytes.get(..80).and_then(|head| head.strip_prefix(STL_HEAD.as_bytes())).unwrap_or_default();
+        let words = head.split(|byte| !byte.is_ascii_lowercase()).filter(|word| !word.is_empty());
+        words.map(|word| String::from_utf8_lossy(word).into_owned()).collect()
+    }
 }
 
 /// The forms of a document.
@@ -110,7 +132,12 @@ impl Document {
         match self {
             Self::Slices(slices) => Some(slices.write()),
             Self::Skein(skein) => Some(skein.write()),
-            Self::Mesh(_) | Self::Gcode => None,
+            // Several parts are no file.
+            Self::Mesh(Plate { parts, done }) => match &parts[..] {
+                [part] => Some(mesh::binary_stl(part, &done.join(" "))),
+                _ => None,
+            },
+            Self::Gcode => None,
         }
     }
 
@@ -119,7 +146,8 @@ impl Document {
         match self {
             Self::Slices(slices) => slices.done.iter().any(|signature| signature.stage == stage),
             Self::Skein(skein) => skein.has_done(stage),
-            Self::Mesh(_) | Self::Gcode => false,
+            Self::Mesh(plate) => plate.done.iter().any(|done| done == stage),
+            Self::Gcode => false,
         }
     }
 
@@ -128,7 +156,8 @@ impl Document {
         match self {
             Self::Slices(slices) => slices.done.push(signature),
             Self::Skein(skein) => skein.sign(&signature)?,
-            Self::Mesh(_) | Self::Gcode => {}
+            Self::Mesh(plate) => plate.done.push(signature.stage),
+            Self::Gcode => {}
         }
         Ok(())
     }

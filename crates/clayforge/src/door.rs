@@ -1,5 +1,6 @@
 //! The door: bytes of any known form become the document with which the chain begins.
 
+use crate::document::Plate;
 use crate::{Document, Profile, Sliced};
 use import::{Format, Import, Part};
 use shape::TriangleMesh;
@@ -13,6 +14,7 @@ pub(crate) fn open<P: AsRef<[u8]>>(
 ) -> Result<Door, Error> {
     let mut doubt = None;
     let mut meshes = Vec::new();
+    let mut done = Vec::new();
     let mut parts = parts.into_iter();
     while let Some(part) = parts.next() {
         let part = part?;
@@ -26,12 +28,13 @@ pub(crate) fn open<P: AsRef<[u8]>>(
             let document = Document::Slices(layers(bytes, &profile.machine)?);
             return Ok(Door { document, doubt });
         }
+        done = Plate::stages_of(bytes);
         let part = read(bytes, &profile.import, &mut sliced.notes)?;
         doubt = doubt.or(part.doubt());
         sliced.formats.push(part.report.format);
         meshes.push(part.mesh);
     }
-    Ok(Door { document: Document::Mesh(meshes), doubt })
+    Ok(Door { document: Document::Mesh(Plate { parts: meshes, done }), doubt })
 }
 
 /// What came in, and the question about its unit, which may explain why it cannot be sliced.

@@ -32,7 +32,7 @@ mod tests;
 mod work;
 
 pub use clay_processor;
-pub use document::{Document, Form};
+pub use document::{Document, Form, Plate};
 pub use door::read_part;
 pub use draw::{Drawing, draw};
 pub use emulate;

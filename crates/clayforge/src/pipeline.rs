@@ -1,5 +1,6 @@
 //! Runs the stages: in memory from a part to the file, or one stage from text to text. Both go through `step`.
 
+use crate::document::Plate;
 use crate::door::{self, Door};
 use crate::draw::{Drawing, draw};
 use crate::figures::Figures;
@@ -22,7 +23,7 @@ pub enum Event<'a> {
     Done {
         /// The stage.
         name: &'static str,
-        /// Its number in the chain, from one; 0 is the reading of the part.
+        /// Its number in the chain: carve is 1, the reading of the part and what works on it are 0.
         number: usize,
         /// How many stages the chain has.
         of: usize,
@@ -97,8 +98,17 @@ pub fn slice_all<P: AsRef<[u8]>>(
     watch(Event::Started { name: Import::NAME })?;
     let Door { mut document, doubt } = door::open(parts, profile, &mut sliced)?;
     watch(Event::Done { name: Import::NAME, number: 0, of: chain.len(), document: &document })?;
+    // Stages of the part come before the first that can be drawn, which has the number one.
+    let before = chain.iter().take_while(|station| station.work.forms().1 == Form::Mesh).count();
     for (index, station) in chain.iter().enumerate() {
         let name = station.entry.name;
+        if station.work.forms().1 == Form::Mesh && document.form() != Form::Mesh {
+            if station.active {
+                sliced.notes.say("works on meshes: the layers of a drawing stay as they are");
+                sliced.notes.said_by(name);
+            }
+            continue;
+        }
         watch(Event::Started { name })?;
         let mut bench = Bench { machine: &profile.machine, notes: &mut sliced.notes, sink: &mut *sink };
         let is_part = document.form() == Form::Mesh;
@@ -113,7 +123,8 @@ pub fn slice_all<P: AsRef<[u8]>>(
                 _ => error,
             })?
         };
-        watch(Event::Done { name, number: index + 1, of: chain.len(), document: &document })?;
+        let number = (index + 1).saturating_sub(before);
+        watch(Event::Done { name, number, of: chain.len() - before, document: &document })?;
         if until == Some(name) {
             break;
         }
@@ -329,7 +340,8 @@ fn figures(skein: &Skein, profile: &Profile) -> Result<Figures, Error> {
 /// Reads a text of a form.
 fn read(form: Form, text: &[u8], import: &Import, notes: &mut Notes) -> Result<Document, Error> {
     match form {
-        Form::Mesh => door::mesh(text, import, notes).map(|mesh| Document::Mesh(vec![mesh])),
+        Form::Mesh => door::mesh(text, import, notes)
+            .map(|mesh| Document::Mesh(Plate { parts: vec![mesh], done: Plate::stages_of(text) })),
         Form::Slices => Slices::read(text).map(Document::Slices),
         Form::Skein | Form::Gcode => Skein::read(text).map(Document::Skein),
     }

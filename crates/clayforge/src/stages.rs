@@ -49,6 +49,7 @@ macro_rules! stages {
 }
 
 stages! {
+    off special scale::Scale: "Makes the part larger by what drying and firing take from it.";
     on special carve::Carve: "Cuts the part into layers of loops.";
     on slices bottom::Bottom: "Puts the lowest layer on the bed, or on the bat that lies on it.";
     on special preface::Preface: "Turns the drawing of the layers into the first skein.";
@@ -123,6 +124,7 @@ const SEED: &[&str] = &[
 /// Two of its pairs are missing, since the seed's own chain breaks them and is merely less good for it: comb works before
 /// clip and stretch, and unpause behind dimension, whose E goes by length.
 const ORDERS: &[&[&str]] = &[
+    &["scale", "carve"],
     &[
         "carve",
         "bottom",

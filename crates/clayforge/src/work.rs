@@ -1,8 +1,8 @@
 //! A stage whose type is forgotten: what the table makes and the pipeline runs.
 
-use crate::document::Text;
+use crate::document::{Plate, Text};
 use crate::{Document, Form};
-use skein::{Error, Field, Machine, Notes, SettingError, Settings, Stage, Value};
+use skein::{Error, Field, Machine, Notes, SettingError, Settings, Signature, Stage, Value};
 use std::marker::PhantomData;
 
 /// Where pieces of the finished file go; an error stops the writing.
@@ -111,6 +111,23 @@ impl<D: Text, S: Stage<D>> Work for On<D, S> {
 #[derive(Clone, Default)]
 pub(crate) struct Special<S>(S);
 
+impl Work for Special<scale::Scale> {
+    settings_of!(0);
+
+    fn forms(&self) -> (Form, Form) {
+        (Form::Mesh, Form::Mesh)
+    }
+    fn work(&self, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
+        match document {
+            Document::Mesh(mut plate) => {
+                plate.parts.iter_mut().try_for_each(|part| self.0.scale(part, bench.notes))?;
+                Ok(Document::Mesh(plate))
+            }
+            other => Err(wrong_form(Form::Mesh, other.form())),
+        }
+    }
+}
+
 impl Work for Special<carve::Carve> {
     settings_of!(0);
 
@@ -119,8 +136,10 @@ impl Work for Special<carve::Carve> {
     }
     fn work(&self, document: Document, bench: &mut Bench<'_>) -> Result<Document, Error> {
         match document {
-            Document::Mesh(parts) => {
-                self.0.carve_all(&parts, bench.machine, bench.notes).map(Document::Slices)
+            Document::Mesh(Plate { parts, done }) => {
+                let mut slices = self.0.carve_all(&parts, bench.machine, bench.notes)?;
+                slices.done = done.iter().map(|stage| Signature::new(stage, &[])).collect();
+                Ok(Document::Slices(slices))
             }
             other => Err(wrong_form(Form::Mesh, other.form())),
         }

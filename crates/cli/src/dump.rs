@@ -23,10 +23,14 @@ impl Dump {
 
     /// Writes what a stage made.
     pub fn stage(&mut self, number: usize, name: &'static str, document: &Document) -> Result<(), Error> {
-        if document.form() == Form::Mesh {
-            return Ok(());
-        }
         self.last = Some((number, name));
+        if document.form() == Form::Mesh {
+            // The part as it was read is there already; what a stage has made of it is not.
+            return match document.text().filter(|_| document.has_done(name)) {
+                Some(text) => self.put(Form::Mesh.extension(), &text),
+                None => Ok(()),
+            };
+        }
         if let Some(text) = document.text() {
             self.put(document.form().extension(), &text)?;
             self.drawing = Some(draw(document, Drawing::default()).map_err(|error| error.said_by("--dump"))?);
