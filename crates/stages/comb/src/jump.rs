@@ -79,13 +79,20 @@ impl Guide {
         best
     }
 
-    /// Where the straight run begins that leads to a jump, as far back from the edge as there is clay.
+    /// Where the straight run begins that leads to a jump: as far back from the edge as there is clay, but no further than
+    /// the place is away that the nozzle comes from, so that it never runs to and fro for long.
     fn run_up(&mut self, here: Point, edge: Point, back: (f64, f64)) -> Point {
-        let run_up = self.measures.run_up;
+        let longest = self.measures.run_up.min(here.distance(edge));
+        let margin = self.measures.margin;
         [1.0, 0.5, 0.25]
             .into_iter()
-            .map(|share| moved(edge, back, run_up * share))
-            .find(|start| run_up > 0.0 && self.open_air(&[here, *start, edge]) < 1.0)
-            .unwrap_or(edge)
+            .filter(|_| longest > 0.0)
+            .map(|share| longest * share)
+            .find(|length| {
+                let start = moved(edge, back, *length);
+                self.open_air(&[here, start]) < 1.0
+                    && self.open_air(&[moved(edge, back, length + margin), edge]) < 1.0
+            })
+            .map_or(edge, |length| moved(edge, back, length))
     }
 }
