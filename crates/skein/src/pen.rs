@@ -110,6 +110,11 @@ impl Pen {
         }
     }
 
+    /// From where the move that was written last went.
+    pub fn came_from(&self) -> Option<Point3> {
+        self.before.at
+    }
+
     /// Takes back the travel that was just written, with the place from which it went; nothing when something else was
     /// written last or that place is unknown.
     pub fn take_travel(&mut self) -> Option<(Point3, Move)> {

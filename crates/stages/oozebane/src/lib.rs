@@ -233,7 +233,10 @@ impl Valve<'_> {
         };
         let early = early * ratio;
         let Some(first) = thread.stretches.first() else { return };
+        // Where the nozzle comes down to the bead, clay that flows already would pile up in front of it.
+        let level = pen.nozzle().at.is_some_and(|at| pen.came_from().is_some_and(|from| from.z == at.z));
         if early >= 1.0
+            && level
             && let Some((from, travel)) = pen.take_travel()
         {
             let length = Move::to(travel.to).length(from);

@@ -18,8 +18,10 @@ pub struct Splodge {
     /// How fast it is laid.
     #[setting(default = 2.0, min = 0.001, max = 1000.0, unit = "mm/s")]
     pub initial_feed: Feed,
-    /// How far the nozzle is lifted for it, as a share of how much higher the blob is than a bead.
-    #[setting(default = 1.0, min = 0.0, max = 10.0)]
+    /// How far the nozzle is lifted for it, as a share of how much higher the blob is than a bead. Thread-thin plastic
+    /// wants 1; through a blob of clay the nozzle ploughs when it comes down again, so it stays down and the blob becomes
+    /// wide.
+    #[setting(default = 0.0, min = 0.0, max = 10.0)]
     pub initial_lift: Ratio,
     /// The same for the blobs of all other beads.
     #[setting(default = 3.0, min = 0.0, max = 10000.0, unit = "mm")]
@@ -28,7 +30,7 @@ pub struct Splodge {
     #[setting(default = 2.0, min = 0.001, max = 1000.0, unit = "mm/s")]
     pub operating_feed: Feed,
     /// How far the nozzle is lifted for those.
-    #[setting(default = 1.0, min = 0.0, max = 10.0)]
+    #[setting(default = 0.0, min = 0.0, max = 10.0)]
     pub operating_lift: Ratio,
 }
 

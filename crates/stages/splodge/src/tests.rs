@@ -25,6 +25,8 @@ fn splodge() -> Splodge {
         operating_feed: one,
         initial_quantity: Micron(30_000),
         operating_quantity: Micron(1_000),
+        initial_lift: Ratio::ONE,
+        operating_lift: Ratio::ONE,
         ..Splodge::default()
     }
 }
@@ -59,7 +61,7 @@ fn g1_g3_g5_the_first_blob() {
 #[test]
 fn g2_g6_the_later_blobs() {
     let lines = lines(&splodge());
-    assert!(lines.contains(&"G1 X39.938 Y0.0 Z1.4 F1200.0".to_owned()), "{lines:?}");
+    assert!(lines.contains(&"G1 X39.937 Y0.0 Z1.4 F1200.0".to_owned()), "{lines:?}");
     assert_eq!(lines.iter().filter(|line| *line == "M101").count(), 2);
 }
 
