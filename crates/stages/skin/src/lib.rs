@@ -37,10 +37,17 @@ impl Stage for Skin {
         let facts = skein.facts()?;
         let width = facts.bead_width()?.um();
         let nozzles = skein.nozzles();
+        let highest = skein.highest();
         let top = skein.layers.iter().rposition(|layer| layer.lines.contains(&Line::On));
         skein.rewrite(notes, |index, layer, notes| {
             // A bead that goes on from layer to layer has no place for others.
             if nozzles[index].on || index < usize::try_from(self.layers_from).unwrap_or(usize::MAX) {
+                return Ok(layer.lines);
+            }
+            // Beside what stands higher already, as behind `tower`, a bead that lies lower would be ploughed.
+            let z = layer.nozzle_z(&facts)?.0;
+            if highest[index].is_some_and(|highest| highest > z) {
+                notes.layer(index, "stays undivided beside what stands higher");
                 return Ok(layer.lines);
             }
             let knife = Knife { skin: self, height: layer.height(&facts)?.0, width, top: top == Some(index) };
@@ -77,28 +84,21 @@ struct Cut {
 }
 
 impl Knife<'_> {
-    /// The layer with finer beads. What lies lower comes first on its island, so that the nozzle never goes through what
-    /// already stands beside it.
+    /// The layer with finer beads. What lies lower comes first, so that the nozzle never goes through what already stands
+    /// beside it.
     fn layer(&self, layer: Layer, entering: &Nozzle, whole: &mut bool) -> Vec<Line> {
-        let mut islands = self.cuts(&layer.lines, *entering, whole).into_iter();
+        let cuts = self.cuts(&layer.lines, *entering, whole);
+        let mut threads = cuts.iter();
         let mut was = *entering;
         let mut pen = Pen::new(entering, layer.lines.len() * 2);
-        let mut island = islands.next().unwrap_or_default();
         let mut fresh = true;
-        let mut cuts = 0;
         for span in spans(&layer.lines) {
-            let lines = span.lines();
-            if lines[0] == Line::Open(Tag::NestedRing) {
-                (island, fresh, cuts) = (islands.next().unwrap_or_default(), true, 0);
-            } else if fresh && is_of_a_bead(&span) {
+            if fresh && is_of_a_bead(&span) {
                 fresh = false;
-                lay_lower(&mut pen, &island);
+                lay_lower(&mut pen, &cuts);
             }
             let cut = match span {
-                Span::Thread(_) => {
-                    cuts += 1;
-                    island.get(cuts - 1).and_then(Option::as_ref)
-                }
+                Span::Thread(_) => threads.next().and_then(Option::as_ref),
                 _ => None,
             };
             if let Some(threads) = cut.and_then(|cut| cut.heights.last()) {
@@ -111,7 +111,7 @@ impl Knife<'_> {
                     pen.thread(thread);
                 }
             }
-            for line in lines {
+            for line in span.lines() {
                 if cut.is_none() {
                     pen.pass(line.clone(), &was);
                 }
@@ -121,20 +121,16 @@ impl Knife<'_> {
         pen.finish(&was)
     }
 
-    /// For each island, the first being what comes before any, its threads as they are cut; nothing for one that stays.
-    fn cuts(&self, lines: &[Line], mut was: Nozzle, whole: &mut bool) -> Vec<Vec<Option<Cut>>> {
-        let mut islands = Vec::new();
-        let mut island = Vec::new();
+    /// The threads of a layer as they are cut; nothing for one that stays.
+    fn cuts(&self, lines: &[Line], mut was: Nozzle, whole: &mut bool) -> Vec<Option<Cut>> {
+        let mut cuts = Vec::new();
         for span in spans(lines) {
-            match span {
-                Span::Thread(lines) => island.push(self.cut(lines, &was, whole)),
-                Span::Other(Line::Open(Tag::NestedRing)) => islands.push(std::mem::take(&mut island)),
-                _ => {}
+            if let Span::Thread(lines) = span {
+                cuts.push(self.cut(lines, &was, whole));
             }
             span.lines().iter().for_each(|line| was.follow(line));
         }
-        islands.push(island);
-        islands
+        cuts
     }
 
     fn cut(&self, lines: &[Line], was: &Nozzle, whole: &mut bool) -> Option<Cut> {
@@ -179,8 +175,8 @@ fn is_of_a_bead(span: &Span<'_>) -> bool {
 }
 
 /// Lays what is lower than the layer's own height, from the lowest up.
-fn lay_lower(pen: &mut Pen, island: &[Option<Cut>]) {
-    let mut lower: Vec<(i32, &Cut, &Thread)> = island
+fn lay_lower(pen: &mut Pen, cuts: &[Option<Cut>]) {
+    let mut lower: Vec<(i32, &Cut, &Thread)> = cuts
         .iter()
         .flatten()
         .flat_map(|cut| {
