@@ -35,14 +35,17 @@ pub use clay_processor;
 pub use document::{Document, Form};
 pub use door::read_part;
 pub use draw::{Drawing, draw};
+pub use emulate;
 pub use explain::explain;
 pub use figures::Figures;
+pub use gcode;
 pub use import::Format;
 pub use inspect::{Inspection, repaired};
 pub use mesh;
 pub use pipeline::{Event, Found, Sliced, Watch, craft, draw_text, set_threads, slice, slice_all};
 pub use profile::{
-    BUILT_IN, Clay, Lookup, Profile, Source, Station, built_in, is_built_in, only_built_in, schema, starter,
+    BUILT_IN, Clay, Lookup, Motion, Profile, Source, Station, built_in, is_built_in, only_built_in, schema,
+    starter,
 };
 pub use skein::{Error, Note, Notes, Place};
 pub use stages::{Chain, Entry, STAGES, check_sequence, stage};

@@ -19,6 +19,7 @@ Examples:
   clayforge mesh cup.stl                           size, faults, thinnest wall, overhang of a part
   clayforge check cup.gcode                        layers, spirals and gaps of a finished file
   clayforge edit cup.gcode -o small.gcode scale --factor 0.5
+  clayforge emulate cup.gcode --machine mine.toml  how long it takes, corners and all
 
 Exit codes: 0 done, 1 refused or failed, 2 wrong usage."
 )]
@@ -47,6 +48,8 @@ pub enum Command {
     Check(Check),
     /// Change finished G-code: scale, speed, nozzle, base, clean, rim, pause
     Edit(Edit),
+    /// Say what a machine makes of a G-code file: time, clay, speeds, tables
+    Emulate(Emulate),
 }
 
 /// Where the settings come from.
@@ -277,6 +280,76 @@ pub struct Edit {
     /// What to do, one edit behind the other
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, required = true, value_name = "EDIT")]
     pub edits: Vec<String>,
+}
+
+/// `clayforge emulate`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  clayforge emulate cup.gcode
+  clayforge emulate cup.gcode --machine mine.toml --json
+  clayforge emulate cup.gcode --acceleration 500 --junction-deviation 0.05 --csv cup.csv
+  clayforge emulate cup.gcode --vtk cup.vtp --events cup.events.csv     for ParaView and Abaqus
+
+--vtk writes XML to .vtp and the legacy form to all else; --events writes the keywords of Abaqus too to a file that ends in .inp.")]
+pub struct Emulate {
+    /// A G-code file of any program; `-` is standard input
+    pub file: PathBuf,
+    /// The machine: a profile by name or file; its sections [machine] and [motion] count
+    #[arg(long, value_name = "NAME|FILE")]
+    pub machine: Option<String>,
+    /// What it accelerates with, mm/s², whatever the file says
+    #[arg(long, value_name = "A", value_parser = positive)]
+    pub acceleration: Option<f64>,
+    /// How far it may cut corners, mm, whatever the file says
+    #[arg(long, value_name = "J", value_parser = not_negative)]
+    pub junction_deviation: Option<f64>,
+    /// How speed changes within a move
+    #[arg(long, value_enum, default_value = "trapezoid")]
+    pub motion: Motion,
+    /// The dialect [default: guessed from the file]
+    #[arg(long, value_name = "NAME")]
+    pub flavor: Option<String>,
+    /// Write a table with a row for each command
+    #[arg(long, value_name = "F")]
+    pub csv: Option<PathBuf>,
+    /// Write an event series for Abaqus
+    #[arg(long, value_name = "F")]
+    pub events: Option<PathBuf>,
+    /// Write the beads as lines with data, for ParaView
+    #[arg(long, value_name = "F")]
+    pub vtk: Option<PathBuf>,
+    /// As JSON, for scripts
+    #[arg(long)]
+    pub json: bool,
+    /// Stop at the first thing that is wrong with the file
+    #[arg(long)]
+    pub strict: bool,
+}
+
+/// How speed changes within a move.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+pub enum Motion {
+    /// Even acceleration
+    Trapezoid,
+    /// Limited jerk
+    Scurve,
+    /// At once
+    Constant,
+}
+
+fn number(text: &str) -> Result<f64, String> {
+    text.parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(|| "it must be a number".to_owned())
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    let value = number(text)?;
+    if value > 0.0 { Ok(value) } else { Err("it must be more than 0".to_owned()) }
+}
+
+fn not_negative(text: &str) -> Result<f64, String> {
+    let value = number(text)?;
+    if value >= 0.0 { Ok(value) } else { Err("it must not be negative".to_owned()) }
 }
 
 #[cfg(test)]

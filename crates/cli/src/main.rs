@@ -5,6 +5,7 @@ mod check;
 mod craft;
 mod dump;
 mod edit;
+mod emulate;
 mod explain;
 mod mesh;
 mod output;
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Command::Mesh(mesh) => mesh::run(mesh),
         Command::Check(check) => check::run(check),
         Command::Edit(edit) => edit::run(edit),
+        Command::Emulate(emulate) => emulate::run(emulate),
     };
     report::exit(done)
 }

@@ -101,7 +101,8 @@ pub fn summary(sliced: &Sliced, output: &str, wall: Duration) {
     say(&text);
 }
 
-fn time(seconds: f64) -> String {
+/// A duration as people say it.
+pub fn time(seconds: f64) -> String {
     let minutes = (seconds / 60.0).round() as u64;
     match minutes {
         0 => format!("{seconds:.0} s"),

@@ -61,9 +61,9 @@ impl Default for EventOptions {
 /// Rows of time, place and fields; times grow from row to row.
 ///
 /// ```
-/// use emulate::{EventOptions, EventSeries, Machine, Program};
+/// use emulate::{EventOptions, EventSeries, Machine, Commands};
 ///
-/// let program = Program::read(b"M83\nG1 X10 E1 F600\nG1 X20\n");
+/// let program = Commands::read(b"M83\nG1 X10 E1 F600\nG1 X20\n");
 /// let operation = Machine::default().process_additive(program.steps)?;
 /// let series = EventSeries::new(&operation, &EventOptions::default());
 /// assert_eq!(series.to_rows(), "0,0,0,0,1\n1,10,0,0,0\n2,20,0,0,0\n");

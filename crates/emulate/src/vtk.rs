@@ -51,9 +51,9 @@ fn bytes<T: Copy, const N: usize>(
 /// Lines through points, one cell for each move that deposits, and data for each cell.
 ///
 /// ```
-/// use emulate::{AdditivePart, Bead, Machine, PolyData, Program};
+/// use emulate::{AdditivePart, Bead, Machine, PolyData, Commands};
 ///
-/// let program = Program::read(b"M83\nG1 X10 E1 F600\nG1 Y10 E1\nG1 X0\n");
+/// let program = Commands::read(b"M83\nG1 X10 E1 F600\nG1 Y10 E1\nG1 X0\n");
 /// let operation = Machine::default().process_additive(program.steps)?;
 /// let part = AdditivePart::new(&operation, Bead::default(), [0.0, 0.0, 1.0])?;
 /// let temperature = [38.0, 39.5];
@@ -278,7 +278,7 @@ impl PolyData {
             match index {
                 0 => write!(out, "SCALARS {name} {kind} 1\nLOOKUP_TABLE default\n")?,
                 1 => write!(out, "FIELD FieldData {}\n{name} 1 {cells} {kind}\n", self.data.len() - 1)?,
-                _ => write!(out, "{name} 1 {cells} {kind}\n")?,
+                _ => writeln!(out, "{name} 1 {cells} {kind}")?,
             }
             out.write_all(&data.bytes(true))?;
             out.write_all(b"\n")?;

@@ -4,7 +4,7 @@
 use emulate::motion::{
     BaamConstraints, JunctionModel, MachineConstraints, MotionProfile, Moves, ProfileType,
 };
-use emulate::{Extruder, Machine, Operation, Program};
+use emulate::{Commands, Extruder, Machine, Operation};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ fn machine(motion: MotionProfile) -> Machine {
 
 fn time(name: &str, motion: MotionProfile) -> f64 {
     let text = data(&format!("{name}.gcode"));
-    let operation = machine(motion).process(Program::read(&text).steps).expect("a sound machine");
+    let operation = machine(motion).process(Commands::read(&text).steps).expect("a sound machine");
     assert_eq!(operation.commands().len(), operation.process_data().len(), "{name}");
     operation.total_time()
 }
@@ -39,7 +39,7 @@ fn times_of_the_oracle() {
     for (name, expected) in [
         ("a_square", 27.030550090),
         ("b_vase", 35.217527802),
-        ("c_sfact", 515.192233570),
+        ("p_tile", 1168.825047846),
         ("e_zigzag", 5.176933129),
         ("g_corners", 2.994028029),
         ("d_arcs", 8.823151677),
@@ -58,10 +58,8 @@ fn every_model_and_profile_on_every_file() {
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
     for line in lines {
         let cells: Vec<&str> = line.split(',').collect();
-        let cell = |name: &str| -> f64 {
-            let column = header.iter().position(|found| *found == name).expect("a column");
-            cells[column].parse().expect("a number")
-        };
+        let text = |name: &str| cells[header.iter().position(|found| *found == name).expect("a column")];
+        let cell = |name: &str| -> f64 { text(name).parse().expect("a number") };
         let motion = |junction: JunctionModel, profile: ProfileType| MotionProfile {
             junction,
             profile,
@@ -81,7 +79,10 @@ fn every_model_and_profile_on_every_file() {
             ("ref_scurve_j5000_s", motion(grbl, ProfileType::SCurve { jerk })),
             ("ref_scurve_strict_j5000_s", motion(grbl, ProfileType::SCurveStrict { jerk })),
         ] {
-            near(time(cells[0], motion), cell(column), &format!("{} {column}", cells[0]));
+            // pyGCodeDecode has not seen every file.
+            if column != "pygcd_total_s" || !text(column).is_empty() {
+                near(time(cells[0], motion), cell(column), &format!("{} {column}", cells[0]));
+            }
         }
     }
 }
@@ -89,8 +90,8 @@ fn every_model_and_profile_on_every_file() {
 #[test]
 fn the_s_curve_with_a_huge_jerk_is_a_trapezoid() {
     let profile = ProfileType::SCurve { jerk: 1e9 };
-    let found = time("c_sfact", MotionProfile { profile, ..planner(500.0, 0.05) });
-    assert!((found - 515.192955559).abs() < 1e-6, "{found}");
+    let found = time("p_tile", MotionProfile { profile, ..planner(500.0, 0.05) });
+    assert!((found - 1168.825339138).abs() < 1e-6, "{found}");
 }
 
 #[test]
@@ -112,7 +113,7 @@ fn a_stop_before_and_after_every_vertical_move() {
     }
     let stops: Arc<dyn MachineConstraints> = Arc::new(StopsForLayers);
     for (name, expected) in
-        [("a_square", 27.102048607), ("g_corners", 3.022169323), ("c_sfact", 515.259106582)]
+        [("a_square", 27.102048607), ("g_corners", 3.022169323), ("p_tile", 1169.774733066)]
     {
         for constraints in [stops.clone(), Arc::new(BaamConstraints::default())] {
             let motion = MotionProfile { constraints: Some(constraints), ..planner(500.0, 0.05) };
@@ -135,7 +136,7 @@ fn caps_of_single_axes() {
     let mut machine = machine(planner(500.0, 0.05));
     machine.limits.axis_speed[0] = 30.0;
     let text = data("a_square.gcode");
-    let operation = machine.process(Program::read(&text).steps).expect("sound");
+    let operation = machine.process(Commands::read(&text).steps).expect("sound");
     near(operation.total_time(), 34.800206945, "X by the limits");
 }
 
@@ -148,7 +149,7 @@ fn arcs_without_their_own_speed_limit_are_faster() {
 
 fn by_moves(name: &str) -> (Operation<'static>, Vec<Vec<f64>>) {
     let text: &'static [u8] = data(&format!("{name}.gcode")).leak();
-    let operation = machine(planner(500.0, 0.05)).process(Program::read(text).steps).expect("sound");
+    let operation = machine(planner(500.0, 0.05)).process(Commands::read(text).steps).expect("sound");
     let table = String::from_utf8(data(&format!("{name}_moves.csv"))).expect("text");
     let number = |cell: &str| cell.parse::<f64>().expect("a number");
     let rows = table.lines().skip(1).map(|line| line.split(',').map(number).collect()).collect();
@@ -180,13 +181,13 @@ fn every_move_has_the_speeds_and_the_time_of_the_oracle() {
 #[test]
 fn where_the_oracle_ends_and_how_far_it_goes() {
     let text = data("f_modes.gcode");
-    let modes = machine(planner(500.0, 0.05)).process(Program::read(&text).steps).expect("sound");
+    let modes = machine(planner(500.0, 0.05)).process(Commands::read(&text).steps).expect("sound");
     let end = modes.process_data().iter().last().expect("a row").at;
     for (found, expected) in end.iter().zip([20.0, -10.0, 0.0]) {
         assert!((found - expected).abs() < 1e-9, "{end:?}");
     }
     let text = data("d_arcs.gcode");
-    let arcs = machine(planner(500.0, 0.05)).process(Program::read(&text).steps).expect("sound");
+    let arcs = machine(planner(500.0, 0.05)).process(Commands::read(&text).steps).expect("sound");
     let statistics = arcs.statistics().expect("it is processed");
     assert!((statistics.path_length - 407.045589).abs() < 1e-6);
     assert_eq!(statistics.dwell_time, 0.25);
@@ -194,12 +195,12 @@ fn where_the_oracle_ends_and_how_far_it_goes() {
 
 #[test]
 fn a_stream_has_the_same_sums_as_the_columns() {
-    for name in ["a_square", "b_vase", "c_sfact", "d_arcs", "e_zigzag"] {
+    for name in ["a_square", "b_vase", "p_tile", "d_arcs", "e_zigzag"] {
         let text = data(&format!("{name}.gcode"));
         let machine = machine(planner(500.0, 0.05));
-        let whole = machine.process_additive(Program::read(&text).steps).expect("sound");
+        let whole = machine.process_additive(Commands::read(&text).steps).expect("sound");
         let mut stream = machine.stream().expect("sound");
-        Program::read(&text).steps.iter().for_each(|step| stream.step(step));
+        Commands::read(&text).steps.iter().for_each(|step| stream.step(step));
         let totals = stream.finish().expect("sound");
         let statistics = whole.statistics().expect("it is processed");
         assert_eq!(totals.commands, whole.commands().len() as u64);

@@ -2,7 +2,7 @@
 
 use emulate::motion::MotionProfile;
 use emulate::{
-    Action, AdditiveOperation, AdditivePart, Bead, Bounds, Extruder, Machine, Program, SegmentKind, Shape,
+    Action, AdditiveOperation, AdditivePart, Bead, Bounds, Commands, Extruder, Machine, SegmentKind, Shape,
 };
 use proptest::prelude::*;
 
@@ -20,7 +20,7 @@ fn machine() -> Machine {
 }
 
 fn emulated(text: &[u8]) -> AdditiveOperation<'_> {
-    machine().process_additive(Program::read(text).steps).expect("a sound machine")
+    machine().process_additive(Commands::read(text).steps).expect("a sound machine")
 }
 
 #[track_caller]
@@ -165,7 +165,7 @@ fn what_makes_no_part_is_refused() {
 fn a_bead_can_be_estimated_from_a_file() {
     let machine = Machine { extruder: Extruder::Volume, ..machine() };
     let bead = |text: &'static [u8]| {
-        let operation = machine.process_additive(Program::read(text).steps).expect("sound");
+        let operation = machine.process_additive(Commands::read(text).steps).expect("sound");
         Bead::estimated(&operation, Bead::default())
     };
     near(bead(SQUARE).height, 2.0);

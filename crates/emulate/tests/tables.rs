@@ -2,8 +2,8 @@
 
 use emulate::motion::{JunctionModel, MotionProfile};
 use emulate::{
-    AdditiveOperation, AdditivePart, Bead, CellData, Column, EventField, EventOptions, EventSeries, Machine,
-    PolyData, Program, Shape, Table,
+    AdditiveOperation, AdditivePart, Bead, CellData, Column, Commands, EventField, EventOptions, EventSeries,
+    Machine, PolyData, Shape, Table,
 };
 
 const SQUARE: &[u8] = include_bytes!("data/a_square.gcode");
@@ -16,7 +16,7 @@ fn machine(junction: JunctionModel) -> Machine {
 }
 
 fn emulated(text: &[u8]) -> AdditiveOperation<'_> {
-    machine(JunctionModel::Grbl).process_additive(Program::read(text).steps).expect("a sound machine")
+    machine(JunctionModel::Grbl).process_additive(Commands::read(text).steps).expect("a sound machine")
 }
 
 fn rows(text: &str) -> Vec<[f64; 5]> {
@@ -34,7 +34,7 @@ fn event_series_are_those_of_py_gcode_decode() {
         ("e_zigzag", include_bytes!("data/e_zigzag.gcode"), include_str!("data/e_zigzag_events.csv")),
     ] {
         let machine = machine(JunctionModel::PyGCodeDecode);
-        let operation = machine.process_additive(Program::read(text).steps).expect("sound");
+        let operation = machine.process_additive(Commands::read(text).steps).expect("sound");
         let series = EventSeries::new(&operation, &EventOptions::default());
         let ours = rows(&series.to_rows());
         // It writes rows for moves of the extruder alone, at one place, and for phases without time; ours has none.
@@ -55,11 +55,11 @@ fn event_series_are_those_of_py_gcode_decode() {
 
 #[test]
 fn the_series_of_a_whole_print_ends_when_the_oracle_does() {
-    let text = include_bytes!("data/c_sfact.gcode");
+    let text = include_bytes!("data/p_tile.gcode");
     for (junction, end) in
-        [(JunctionModel::Grbl, 515.192233570), (JunctionModel::PyGCodeDecode, 515.369618671)]
+        [(JunctionModel::Grbl, 1168.825047846), (JunctionModel::PyGCodeDecode, 1168.870466695)]
     {
-        let operation = machine(junction).process_additive(Program::read(text).steps).expect("sound");
+        let operation = machine(junction).process_additive(Commands::read(text).steps).expect("sound");
         let series = EventSeries::new(&operation, &EventOptions::default());
         assert!((series.time.last().expect("a row") - end).abs() < 1e-8);
         assert!(series.time.windows(2).all(|pair| pair[0] < pair[1]), "times grow");
@@ -90,9 +90,9 @@ fn the_field_over_the_way_is_the_way_of_the_deposits() {
     for index in 0..series.len() - 1 {
         let middle = 0.5 * (series.time[index] + series.time[index + 1]);
         let at = operation.at_time(middle).expect("there are steps").at;
-        for axis in 0..3 {
+        for (axis, found) in at.into_iter().enumerate() {
             let line = 0.5 * (series.at[index][axis] + series.at[index + 1][axis]);
-            assert!((at[axis] - line).abs() < 0.01 + 1e-9, "{middle}: {} {line}", at[axis]);
+            assert!((found - line).abs() < 0.01 + 1e-9, "{middle}: {found} {line}");
         }
     }
 }
@@ -134,11 +134,11 @@ fn a_table_reads_back_to_the_bit() {
 
 #[test]
 fn the_columns_of_every_kind_of_process() {
-    let program = Program::read(b"G1 X10 E1 F600\n");
+    let program = Commands::read(b"G1 X10 E1 F600\n");
     let additive = machine(JunctionModel::Grbl).process_additive(program.steps).expect("sound");
     assert!(Table::of_additive(&additive).column("bead_area").is_some());
     let flavor = gcode::Flavor::named("grbl").expect("built in");
-    let milling = Program::read_as(b"M3 S6000\nG1 X0 Z-2 F600\nG1 X10\nM5\nG1 X20\n", flavor);
+    let milling = Commands::read_as(b"M3 S6000\nG1 X0 Z-2 F600\nG1 X10\nM5\nG1 X20\n", flavor);
     let mill = Machine { cutter: Some(3.0), ..machine(JunctionModel::Grbl) };
     let subtractive = mill.process_subtractive(milling.steps).expect("sound");
     let table = Table::of_subtractive(&subtractive);

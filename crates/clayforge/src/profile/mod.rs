@@ -1,9 +1,11 @@
 //! Profiles: what the settings of a print are, read from TOML with the place of every key.
 
 mod check;
+mod motion;
 mod show;
 mod toml;
 
+pub use motion::Motion;
 pub(crate) use show::{bounds, wrapped};
 pub use show::{schema, starter};
 
@@ -66,6 +68,8 @@ pub struct Profile {
     pub sequence: Option<Vec<&'static str>>,
     /// The printer.
     pub machine: Machine,
+    /// How it moves.
+    pub motion: Motion,
     /// The clay.
     pub clay: Clay,
     /// How parts are read.
@@ -86,6 +90,7 @@ impl Default for Profile {
             chain: Chain::default(),
             sequence: None,
             machine: Machine::default(),
+            motion: Motion::default(),
             clay: Clay::default(),
             import: Import::default(),
             stations,
@@ -102,6 +107,7 @@ impl Clone for Profile {
             chain: self.chain,
             sequence: self.sequence.clone(),
             machine: self.machine.clone(),
+            motion: self.motion.clone(),
             clay: self.clay.clone(),
             import: self.import.clone(),
             stations: stations
@@ -284,6 +290,7 @@ impl Profile {
     fn section_mut(&mut self, name: &str) -> Option<(&mut dyn Keys, Option<&mut bool>)> {
         match name {
             "machine" => Some((&mut self.machine, None)),
+            "motion" => Some((&mut self.motion, None)),
             "clay" => Some((&mut self.clay, None)),
             Import::NAME => Some((&mut self.import, None)),
             _ => {
@@ -333,6 +340,7 @@ impl Profile {
         };
         let mut sections = vec![
             section("machine", "The printer.", &self.machine),
+            section("motion", "How the printer moves.", &self.motion),
             section("clay", "The clay itself.", &self.clay),
             section(Import::NAME, "How the file of a part is read.", &self.import),
         ];

@@ -21,9 +21,9 @@ use walk::Walk;
 /// A machine: its limits, its habits, and how its motion is planned.
 ///
 /// ```
-/// use emulate::{Machine, Program, motion::MotionProfile};
+/// use emulate::{Machine, Commands, motion::MotionProfile};
 ///
-/// let program = Program::read(b"G1 X100 F3000\nG4 P500\nG1 X0\n");
+/// let program = Commands::read(b"G1 X100 F3000\nG4 P500\nG1 X0\n");
 /// let machine = Machine {
 ///     motion: MotionProfile { max_acceleration: Some(500.0), ..MotionProfile::default() },
 ///     ..Machine::default()

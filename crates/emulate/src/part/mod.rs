@@ -97,10 +97,10 @@ pub const CHORD_TOLERANCE: f64 = 0.01;
 /// it is about.
 ///
 /// ```
-/// use emulate::{AdditivePart, Bead, Machine, Program, Shape};
+/// use emulate::{AdditivePart, Bead, Machine, Commands, Shape};
 ///
 /// let program = b"M82\nG1 Z2 F600\nG1 X100 E5 F3000\nG1 Y100 E10\nG1 Z4\nG1 X0 E15\nG1 Y0 E20\n";
-/// let operation = Machine::default().process_additive(Program::read(program).steps)?;
+/// let operation = Machine::default().process_additive(Commands::read(program).steps)?;
 /// let bead = Bead { width: 6.0, height: 2.0, shape: Shape::Rectangle, density: 1.9 };
 /// let part = AdditivePart::new(&operation, bead, [0.0, 0.0, 1.0])?;
 ///

@@ -1,7 +1,5 @@
 //! The columns of an operation as a table: one row a command.
 
-#[cfg(feature = "arrow")]
-mod arrow;
 mod csv;
 
 use crate::operation::{AdditiveOperation, Operation, SubtractiveOperation};
@@ -64,9 +62,9 @@ impl Column<'_> {
 /// | `layer` | whole | of a part |
 ///
 /// ```
-/// use emulate::{Machine, Program, Table};
+/// use emulate::{Machine, Commands, Table};
 ///
-/// let program = Program::read(b"G1 X10 E1 F600\nG1 X20\n");
+/// let program = Commands::read(b"G1 X10 E1 F600\nG1 X20\n");
 /// let operation = Machine::default().process_additive(program.steps)?;
 /// let table = Table::of_additive(&operation);
 /// assert_eq!(table.column("time").and_then(|times| times.number(1)), Some(2.0));
