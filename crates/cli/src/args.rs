@@ -307,8 +307,8 @@ pub struct Emulate {
     /// How speed changes within a move
     #[arg(long, value_enum, default_value = "trapezoid")]
     pub motion: Motion,
-    /// The dialect [default: guessed from the file]
-    #[arg(long, value_name = "NAME")]
+    /// The dialect, by name or as a TOML file [default: guessed from the file]
+    #[arg(long, value_name = "NAME|FILE")]
     pub flavor: Option<String>,
     /// Write a table with a row for each command
     #[arg(long, value_name = "F")]

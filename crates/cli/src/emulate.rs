@@ -7,7 +7,7 @@ use crate::profile;
 use crate::report::{self, Done, Stop};
 use clayforge::emulate::motion::ProfileType;
 use clayforge::emulate::{
-    self, AdditiveOperation, AdditivePart, Bead, Commands, EventOptions, EventSeries, PolyData, Table,
+    self, Action, AdditiveOperation, AdditivePart, Bead, Commands, EventOptions, EventSeries, PolyData, Table,
 };
 use clayforge::gcode::{Diagnostic, Flavor, preprocess};
 use clayforge::{Error, Place, Profile};
@@ -29,6 +29,7 @@ pub fn run(emulate: &Emulate) -> Done {
     };
     let text = read(&emulate.file)?;
     let name = emulate.file.display().to_string();
+    clayforge::gcode::check_text(&text).map_err(|why| Error::new(format!("it is {why}")).said_by(&name))?;
     let flavor = flavor(emulate, &text)?;
     let program = preprocess(&text, &flavor).map_err(|fault| at(&fault).said_by(&name))?;
     let Commands { steps, diagnostics } = Commands::of(&program, &flavor);
@@ -79,11 +80,15 @@ pub fn run(emulate: &Emulate) -> Done {
 /// The dialect that was named, or the one that the file speaks.
 fn flavor(emulate: &Emulate, text: &[u8]) -> Result<Flavor, Error> {
     let Some(name) = &emulate.flavor else { return Ok(Flavor::detect(text).flavor.clone()) };
+    if Flavor::named(name).is_none() && Path::new(name).exists() {
+        let bytes = read(Path::new(name))?;
+        return clayforge::read_flavor(&String::from_utf8_lossy(&bytes)).map_err(|error| error.said_by(name));
+    }
     let known =
         || Flavor::built_in().iter().map(|flavor| flavor.name.as_ref()).collect::<Vec<_>>().join(", ");
     Flavor::named(name).cloned().ok_or_else(|| {
         Error::new(format!("there is no flavor `{name}`"))
-            .hint(format!("known are {}", known()))
+            .hint(format!("a file, or one of {}", known()))
             .said_by("emulate")
     })
 }
@@ -201,6 +206,9 @@ fn described(
         all.dwell_time,
         all.time_lost
     );
+    if operation.process_data().action().contains(&Action::Home) {
+        text.push_str("            homing takes a while that nobody knows; it is not in it\n");
+    }
     let _ = writeln!(
         text,
         "  way       {:.2} m: {:.2} m with clay, {:.2} m without",

@@ -35,7 +35,7 @@ mod vtk;
 
 pub use arc::{Arc, ArcFault};
 pub use bead::{Bead, Shape};
-pub use commands::Commands;
+pub use commands::{Commands, read_operation};
 pub use error::Error;
 pub use events::{EventField, EventOptions, EventSeries};
 pub use extruder::Extruder;

@@ -219,7 +219,6 @@ fn a_slow_pump_slows_the_nozzle_down() {
 fn odd_words_are_told_and_never_stop_the_machine() {
     for (text, why) in [
         ("G1 X10\n", "no feed"),
-        ("G28\n", "homing"),
         ("G1 X5 U3 F600\n", "U"),
         ("G10 L2 P99 X1\n", "coordinate system"),
     ] {

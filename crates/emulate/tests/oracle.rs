@@ -211,3 +211,23 @@ fn a_stream_has_the_same_sums_as_the_columns() {
         assert!((totals.volume - whole.volume()).abs() < 1e-9 * whole.volume().max(1.0), "{name}");
     }
 }
+
+/// The oracle's own print may not be handed on with this repository (its mesh is under the AGPL). Where it is at hand:
+/// `CLAYFORGE_ORACLE=FOLDER cargo test -p emulate --test oracle -- --ignored`.
+#[test]
+#[ignore = "needs the folder of the oracle"]
+fn the_times_of_a_print_that_is_not_here() {
+    let folder = std::env::var_os("CLAYFORGE_ORACLE").expect("CLAYFORGE_ORACLE names the folder");
+    let text = std::fs::read(PathBuf::from(folder).join("c_sfact.gcode")).expect("the print of the oracle");
+    let time = |motion: MotionProfile| {
+        machine(motion).process(Commands::read(&text).steps).expect("a sound machine").total_time()
+    };
+    near(time(planner(500.0, 0.05)), 515.192233570, "GRBL");
+    near(time(MotionProfile::default()), 431.862592844, "at once");
+    let junction = JunctionModel::PyGCodeDecode;
+    near(time(MotionProfile { junction, ..planner(500.0, 0.05) }), 515.369618671, "pyGCodeDecode");
+    let constraints: Option<Arc<dyn MachineConstraints>> = Some(Arc::new(BaamConstraints::default()));
+    near(time(MotionProfile { constraints, ..planner(500.0, 0.05) }), 515.259106582, "stops for layers");
+    let profile = ProfileType::SCurve { jerk: 5000.0 };
+    near(time(MotionProfile { profile, ..planner(500.0, 0.05) }), 609.314832133, "S-curve");
+}

@@ -1,5 +1,7 @@
 //! The columns of an operation as a table: one row a command.
 
+#[cfg(feature = "tables")]
+mod arrow;
 mod csv;
 
 use crate::operation::{AdditiveOperation, Operation, SubtractiveOperation};
