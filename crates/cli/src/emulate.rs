@@ -2,7 +2,7 @@
 
 use crate::args::{Emulate, Motion};
 use crate::craft::read;
-use crate::output::{Output, print};
+use crate::output::{Output, print, put};
 use crate::profile;
 use crate::report::{self, Done, Stop};
 use clayforge::emulate::motion::ProfileType;
@@ -23,6 +23,12 @@ const SAID: usize = 20;
 
 /// Says what a machine makes of a file.
 pub fn run(emulate: &Emulate) -> Done {
+    if cfg!(not(feature = "tables")) && (emulate.parquet.is_some() || emulate.arrow.is_some()) {
+        return Err(Error::new("this clayforge was built without Parquet and Arrow")
+            .hint("--csv, or build it with `cargo build --release --features cli/tables`")
+            .said_by("emulate")
+            .into());
+    }
     let profile = match &emulate.machine {
         Some(name) => profile::read(name)?,
         None => Profile::default(),
@@ -115,6 +121,24 @@ fn ours(error: emulate::Error, name: &str) -> Error {
 fn write_files(emulate: &Emulate, operation: &AdditiveOperation<'_>, part: &AdditivePart<'_, '_>) -> Done {
     if let Some(path) = &emulate.csv {
         write(path, |out| Table::of_part(part).write_csv(out))?;
+    }
+    #[cfg(feature = "tables")]
+    {
+        if let Some(path) = &emulate.parquet {
+            // The writer of Parquet wants to be sent between threads; an output does not.
+            let mut bytes = Vec::new();
+            let done = Table::of_part(part).write_parquet(&mut bytes);
+            done.map_err(|error| ours(error, &path.display().to_string()))?;
+            put(path, &bytes)?;
+        }
+        if let Some(path) = &emulate.arrow {
+            write(path, |out| Table::of_part(part).write_arrow(out))?;
+        }
+    }
+    if let Some(path) = &emulate.picture {
+        let svg = emulate::picture(part, &emulate.color, emulate.view)
+            .map_err(|error| ours(error, &path.display().to_string()))?;
+        put(path, svg.as_bytes())?;
     }
     if let Some(path) = &emulate.events {
         let series = EventSeries::new(operation, &EventOptions::default());
