@@ -93,7 +93,8 @@ fn slice_and_emulate_agree_about_the_time() {
 fn every_file_is_written_in_its_form() {
     let room = room();
     let words = ["emulate", "cup.gcode", "--csv", "cup.csv", "--events", "cup.events", "--vtk", "cup.vtp"];
-    room.run(&[&words[..], &["--picture", "cup.svg", "--color", "time", "--view", "layer=3"]].concat()).done();
+    room.run(&[&words[..], &["--picture", "cup.svg", "--color", "time", "--view", "layer=3"]].concat())
+        .done();
     room.run(&["emulate", "cup.gcode", "--events", "cup.inp", "--vtk", "cup.vtk"]).done();
     let csv = text_of(&room.path("cup.csv"));
     let mut lines = csv.lines();
@@ -104,7 +105,9 @@ fn every_file_is_written_in_its_form() {
     let commands = json(&room, &["emulate", "cup.gcode", "--json"])["commands"].as_u64();
     assert_eq!(Some(csv.lines().count() as u64 - 1), commands);
     let events = text_of(&room.path("cup.events"));
-    assert!(events.lines().all(|line| line.split(',').filter(|cell| cell.parse::<f64>().is_ok()).count() == 5));
+    assert!(
+        events.lines().all(|line| line.split(',').filter(|cell| cell.parse::<f64>().is_ok()).count() == 5)
+    );
     assert!(text_of(&room.path("cup.inp")).starts_with("*EVENT SERIES TYPE"));
     let begins = |name: &str, with: &[u8]| {
         let bytes = std::fs::read(room.path(name)).expect("it was written");
@@ -127,7 +130,10 @@ fn what_is_wrong_is_told_and_strict_stops_at_it() {
     assert!(ran.err.contains("bad.gcode: 2:4"), "{}", ran.err);
     assert!(!room.path("bad.csv").exists());
     let report = json(&room, &["emulate", "bad.gcode", "--json"]);
-    assert_eq!((&report["diagnostics"][0]["line"], &report["diagnostics"][0]["column"]), (&2.into(), &4.into()));
+    assert_eq!(
+        (&report["diagnostics"][0]["line"], &report["diagnostics"][0]["column"]),
+        (&2.into(), &4.into())
+    );
 }
 
 #[test]
@@ -159,7 +165,9 @@ fn what_is_no_gcode_is_refused() {
 fn a_flavor_of_ones_own_is_a_file() {
     let room = Room::new();
     room.put("print.gcode", "G4 P2\n").put("seconds.toml", "inherits = \"marlin\"\ndwell = [\"P s\"]\n");
-    let dwell = |words: &[&str]| number(&json(&room, &[&["emulate", "print.gcode", "--json"], words].concat()), "dwell_time");
+    let dwell = |words: &[&str]| {
+        number(&json(&room, &[&["emulate", "print.gcode", "--json"], words].concat()), "dwell_time")
+    };
     assert_eq!(dwell(&["--flavor", "marlin"]), 0.002);
     assert_eq!(dwell(&["--flavor", "seconds.toml"]), 2.0);
     room.put("wrong.toml", "dwell = [\"P h\"]\n");

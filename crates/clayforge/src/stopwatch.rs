@@ -100,9 +100,10 @@ mod tests {
     fn what_crawls_is_said() {
         let mut profile = Profile::default();
         profile.set("motion.acceleration", "100").expect("in its bounds");
-        let zigzag: String =
-            (0..50).map(|step| format!("G1 X{} Y{} E1\n", step, step % 2)).collect();
-        for (file, slow) in [(format!("M83\nG1 F6000\n{zigzag}"), true), ("M83\nG1 X1\nG1 X900 E5 F600\n".to_owned(), false)] {
+        let zigzag: String = (0..50).map(|step| format!("G1 X{} Y{} E1\n", step, step % 2)).collect();
+        for (file, slow) in
+            [(format!("M83\nG1 F6000\n{zigzag}"), true), ("M83\nG1 X1\nG1 X900 E5 F600\n".to_owned(), false)]
+        {
             let machine = profile.emulator();
             let mut stopwatch = Stopwatch::new(&machine).expect("sound");
             stopwatch.push(file.as_bytes());

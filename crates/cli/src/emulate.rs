@@ -79,7 +79,7 @@ pub fn run(emulate: &Emulate) -> Done {
             let _ = writeln!(said, "  and {} more", count - SAID as u64);
         }
         report::say(&said);
-        print(&described(&name, &flavor, &operation, &part))
+        print(&described(&name, &flavor, &operation, &part, emulate.machine.is_some()))
     }
 }
 
@@ -217,6 +217,7 @@ fn described(
     flavor: &Flavor,
     operation: &AdditiveOperation<'_>,
     part: &AdditivePart<'_, '_>,
+    knows_unit: bool,
 ) -> String {
     let all = operation.statistics().unwrap_or_default();
     let volume = part.extruded_volume();
@@ -246,8 +247,13 @@ fn described(
         all.mean_speed, all.max_speed
     );
     let mass = part.bead().mass(volume);
-    let _ =
-        writeln!(text, "  clay      {:.1} ml, {mass:.0} g, in {} layers", volume / 1000.0, part.n_layers());
+    let unit = if knows_unit { "" } else { "; E is taken for mm³, --machine says what it is" };
+    let _ = writeln!(
+        text,
+        "  clay      {:.1} ml, {mass:.0} g, in {} layers{unit}",
+        volume / 1000.0,
+        part.n_layers()
+    );
     if let Some(bounds) = operation.bounds() {
         let side = |axis: usize| format!("{:.2} to {:.2}", bounds.min[axis], bounds.max[axis]);
         let _ = writeln!(text, "  room      x {}, y {}, z {} mm", side(0), side(1), side(2));

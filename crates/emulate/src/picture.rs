@@ -59,8 +59,7 @@ pub fn picture(part: &AdditivePart<'_, '_>, column: &str, view: View) -> Result<
                 _ => true,
             }
     };
-    let deposits: Vec<usize> =
-        (0..process.len()).filter(|&index| wanted(Action::Deposit, index)).collect();
+    let deposits: Vec<usize> = (0..process.len()).filter(|&index| wanted(Action::Deposit, index)).collect();
     let Some(frame) = Frame::around(part, view, &deposits) else {
         return Err(Error::new("nothing is deposited, so there is nothing to draw"));
     };
@@ -242,12 +241,16 @@ mod tests {
     #[test]
     fn the_scale_goes_through_its_colours() {
         assert_eq!([colour(0.0), colour(0.5), colour(1.0)], ["#440154", "#21918c", "#fde725"]);
-        assert_eq!([short(1234.5), short(50.0), short(0.1 + 0.2), short(-2.5)], ["1234", "50", "0.3", "-2.5"]);
+        assert_eq!(
+            [short(1234.5), short(50.0), short(0.1 + 0.2), short(-2.5)],
+            ["1234", "50", "0.3", "-2.5"]
+        );
     }
 
     #[test]
     fn every_deposit_is_drawn_once_in_the_colour_of_its_value() {
-        let text = b"M83\nG1 Z1 F600\nG1 X10 E1 F600\nG1 Y10 E1\nG1 X0 E1 F1200\nG1 Z2\nG1 Y5\nG1 X10 E1 F1800\n";
+        let text =
+            b"M83\nG1 Z1 F600\nG1 X10 E1 F600\nG1 Y10 E1\nG1 X0 E1 F1200\nG1 Z2\nG1 Y5\nG1 X10 E1 F1800\n";
         let operation = Machine::default().process_additive(Commands::read(text).steps).expect("sound");
         let bead = Bead { width: 2.0, height: 1.0, ..Bead::default() };
         let part = AdditivePart::new(&operation, bead, [0.0, 0.0, 1.0]).expect("a part");

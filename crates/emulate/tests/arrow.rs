@@ -17,7 +17,9 @@ fn same(table: &Table<'_>, batch: &RecordBatch) {
                 let found = found.as_primitive::<Float64Type>();
                 assert!(values.iter().zip(found.values()).all(|(a, b)| a.to_bits() == b.to_bits()), "{name}");
             }
-            Column::U32(values) => assert_eq!(found.as_primitive::<UInt32Type>().values().as_ref(), &**values),
+            Column::U32(values) => {
+                assert_eq!(found.as_primitive::<UInt32Type>().values().as_ref(), &**values)
+            }
             Column::Word(values) => {
                 let found = found.as_dictionary::<UInt8Type>();
                 let words = found.downcast_dict::<arrow_array::StringArray>().expect("words");

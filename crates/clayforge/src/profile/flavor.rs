@@ -36,8 +36,8 @@ pub fn read_flavor(text: &str) -> Result<Flavor, Error> {
     }
     for (key, item) in document.iter().filter(|(key, _)| *key != "inherits") {
         let value = item.as_value().and_then(plain);
-        let value =
-            value.ok_or_else(|| Error::new(format!("{key} is no text, number or list")).at(at(item.span())))?;
+        let value = value
+            .ok_or_else(|| Error::new(format!("{key} is no text, number or list")).at(at(item.span())))?;
         flavor.set(key, &value).map_err(|error| Error::new(error.to_string()).at(at(item.span())))?;
     }
     Ok(flavor)

@@ -39,7 +39,7 @@ impl Table<'_> {
     /// When `out` does not take it.
     pub fn write_parquet(&self, out: impl Write + Send) -> Result<(), Error> {
         let batch = self.to_batch()?;
-        
+
         let properties = WriterProperties::builder().set_compression(Compression::SNAPPY).build();
         let mut writer = ArrowWriter::try_new(out, batch.schema(), Some(properties))?;
         writer.write(&batch)?;
