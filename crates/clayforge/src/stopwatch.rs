@@ -77,7 +77,7 @@ pub(crate) fn warn(totals: &Totals, profile: &Profile, notes: &mut Notes) {
 mod tests {
     use super::*;
 
-    const FILE: &[u8] = b"M83\nG1 X100 E5 F6000\r\nG1 Y50 E5 ; up\n\nG4 P500\nG1 X0 Y0 F3000";
+    const FILE: &[u8] = b"G1 X0 Y0 Z0 F6000\nM83\nG1 X100 E5\r\nG1 Y50 E5 ; up\n\nG4 P500\nG1 X0 Y0 F3000";
 
     #[test]
     fn pieces_that_end_anywhere_take_as_long_as_the_whole() {
