@@ -5,6 +5,7 @@
 //! * [`parts`]: whole prints, in memory and as text, on one thread and on two;
 //! * [`cli`]: the command as scripts and people meet it;
 //! * [`edit`]: the page of `clayforge edit` is its test;
+//! * [`emulate`]: what a machine makes of finished files, through the command;
 //! * [`import`]: parts of every format through the command;
 //! * [`torture`]: parts as potters find them, each in a process of its own;
 //! * [`tidy`]: the layout of the workspace;
@@ -13,6 +14,7 @@
 mod cases;
 mod cli;
 mod edit;
+mod emulate;
 mod import;
 mod law;
 mod parts;

@@ -20,7 +20,7 @@ pub struct Figures {
     pub volume_mm3: f64,
     /// Its mass.
     pub mass_g: f64,
-    /// Length over speed; what the machine loses in corners is not in it.
+    /// How long the machine takes for the finished file; before there is one, length over speed.
     pub time_s: f64,
 }
 

@@ -27,6 +27,7 @@ mod limits;
 mod pipeline;
 mod profile;
 mod stages;
+mod stopwatch;
 #[cfg(test)]
 mod tests;
 mod work;
@@ -44,8 +45,8 @@ pub use inspect::{Inspection, repaired};
 pub use mesh;
 pub use pipeline::{Event, Found, Sliced, Watch, craft, draw_text, set_threads, slice, slice_all};
 pub use profile::{
-    BUILT_IN, Clay, Lookup, Motion, Profile, Source, Station, built_in, is_built_in, only_built_in, schema,
-    starter,
+    BUILT_IN, Clay, Lookup, Motion, Profile, Source, Station, built_in, is_built_in, only_built_in,
+    read_flavor, schema, starter,
 };
 pub use skein::{Error, Note, Notes, Place};
 pub use stages::{Chain, Entry, STAGES, check_sequence, stage};

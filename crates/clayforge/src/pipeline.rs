@@ -5,6 +5,7 @@ use crate::door::{self, Door};
 use crate::draw::{Drawing, draw};
 use crate::figures::Figures;
 use crate::profile::{Profile, Station};
+use crate::stopwatch::{self, Stopwatch};
 use crate::work::{Bench, Sink};
 use crate::{Document, Form};
 use clay_processor::{Firmware, Limits, Options, Processor, Report, Rule, Severity, Verdict};
@@ -199,14 +200,14 @@ fn step(station: &Station, document: Document, bench: &mut Bench<'_>) -> Result<
     Ok(document)
 }
 
-/// Counts the skein and writes the file, which a clay processor reads while it is written.
+/// Counts the skein and writes the file, which a clay processor reads while it is written, and an emulator behind it.
 fn finish(
     station: &Station,
     document: Document,
     profile: &Profile,
     bench: &mut Bench<'_>,
 ) -> Result<(Figures, Found), Error> {
-    let counted = match &document {
+    let mut counted = match &document {
         Document::Skein(skein) => figures(skein, profile)?,
         _ => Figures::default(),
     };
@@ -217,10 +218,14 @@ fn finish(
     }
     let sink = &mut *bench.sink;
     let limits = own_limits(profile);
-    let report = std::thread::scope(|scope| {
+    let machine = profile.emulator();
+    let (report, totals) = std::thread::scope(|scope| {
         let (send, receive) = sync_channel(Tee::AHEAD);
-        let (give_back, empty) = sync_channel(Tee::AHEAD + 2);
-        let reader = scope.spawn(move || process(limits, &receive, &give_back));
+        let (pass_on, passed_on) = sync_channel(Tee::AHEAD);
+        let (give_back, empty) = sync_channel(2 * Tee::AHEAD + 3);
+        let reader = scope.spawn(move || process(limits, &receive, &pass_on));
+        let machine = &machine;
+        let timer = scope.spawn(move || time(machine, &passed_on, &give_back));
         let mut tee = Tee { send: Some(send), empty, chunk: Vec::new() };
         let mut both = |piece: &[u8]| {
             tee.push(piece);
@@ -229,10 +234,12 @@ fn finish(
         let mut bench = Bench { machine: bench.machine, notes: &mut *bench.notes, sink: &mut both };
         let written = step(station, document, &mut bench);
         tee.close();
-        let report =
-            reader.join().map_err(|_| Error::new("the reader of the finished file broke; this is our bug"));
-        written.and(report)
+        let broke = || Error::new("a reader of the finished file broke; this is our bug");
+        let report = reader.join().map_err(|_| broke());
+        let totals = timer.join().map_err(|_| broke()).flatten();
+        written.and_then(|_| Ok((report?, totals?)))
     })?;
+    counted.time_s = totals.total_time;
     let found = Found { layers: report.letter.layers.len(), spirals: report.letter.spirals.len() };
     if found.layers != counted.layers && found.spirals == 0 {
         bench.notes.say(format!(
@@ -242,6 +249,8 @@ fn finish(
     }
     judge(&report.verdicts, bench.notes)?;
     bench.notes.said_by("check");
+    stopwatch::warn(&totals, profile, bench.notes);
+    bench.notes.said_by("motion");
     Ok((counted, found))
 }
 
@@ -314,15 +323,29 @@ impl Tee {
     }
 }
 
-fn process(limits: Limits, chunks: &Receiver<Vec<u8>>, give_back: &SyncSender<Vec<u8>>) -> Report {
+fn process(limits: Limits, chunks: &Receiver<Vec<u8>>, pass_on: &SyncSender<Vec<u8>>) -> Report {
     let mut processor = Processor::new(Options { limits, ..Options::default() });
-    for mut chunk in chunks {
+    for chunk in chunks {
         processor.push(&chunk);
+        // An emulator that is gone is met again when it is joined.
+        let _ = pass_on.send(chunk);
+    }
+    processor.finish()
+}
+
+fn time(
+    machine: &emulate::Machine,
+    chunks: &Receiver<Vec<u8>>,
+    give_back: &SyncSender<Vec<u8>>,
+) -> Result<emulate::Totals, Error> {
+    let mut stopwatch = Stopwatch::new(machine)?;
+    for mut chunk in chunks {
+        stopwatch.push(&chunk);
         chunk.clear();
         // A writer that is done wants none back.
         let _ = give_back.try_send(chunk);
     }
-    processor.finish()
+    stopwatch.finish()
 }
 
 fn figures(skein: &Skein, profile: &Profile) -> Result<Figures, Error> {

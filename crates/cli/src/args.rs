@@ -1,6 +1,7 @@
 //! The words of the command line.
 
 use clap::{Args, Parser, Subcommand};
+use clayforge::emulate::View;
 use std::path::PathBuf;
 
 /// A slicer for clay printers: a mesh goes in, G-code that a paste extruder can print comes out.
@@ -289,6 +290,7 @@ Examples:
   clayforge emulate cup.gcode
   clayforge emulate cup.gcode --machine mine.toml --json
   clayforge emulate cup.gcode --acceleration 500 --junction-deviation 0.05 --csv cup.csv
+  clayforge emulate cup.gcode --picture cup.svg --color speed_peak --view layer=3
   clayforge emulate cup.gcode --vtk cup.vtp --events cup.events.csv     for ParaView and Abaqus
 
 --vtk writes XML to .vtp and the legacy form to all else; --events writes the keywords of Abaqus too to a file that ends in .inp.")]
@@ -307,8 +309,8 @@ pub struct Emulate {
     /// How speed changes within a move
     #[arg(long, value_enum, default_value = "trapezoid")]
     pub motion: Motion,
-    /// The dialect [default: guessed from the file]
-    #[arg(long, value_name = "NAME")]
+    /// The dialect, by name or as a TOML file [default: guessed from the file]
+    #[arg(long, value_name = "NAME|FILE")]
     pub flavor: Option<String>,
     /// Write a table with a row for each command
     #[arg(long, value_name = "F")]
@@ -319,6 +321,15 @@ pub struct Emulate {
     /// Write the beads as lines with data, for ParaView
     #[arg(long, value_name = "F")]
     pub vtk: Option<PathBuf>,
+    /// Draw the deposits as SVG
+    #[arg(long, value_name = "F")]
+    pub picture: Option<PathBuf>,
+    /// The column of the table that gives the picture its colours
+    #[arg(long, value_name = "COLUMN", default_value = "speed_peak")]
+    pub color: String,
+    /// From where: top, front, or layer=N, counted from 0
+    #[arg(long, value_name = "VIEW", default_value = "top", value_parser = view)]
+    pub view: View,
     /// As JSON, for scripts
     #[arg(long)]
     pub json: bool,
@@ -336,6 +347,18 @@ pub enum Motion {
     Scurve,
     /// At once
     Constant,
+}
+
+fn view(text: &str) -> Result<View, String> {
+    match text {
+        "top" => Ok(View::Top),
+        "front" => Ok(View::Front),
+        _ => text
+            .strip_prefix("layer=")
+            .and_then(|layer| layer.parse().ok())
+            .map(View::Layer)
+            .ok_or_else(|| "it must be top, front or layer=N".to_owned()),
+    }
 }
 
 fn number(text: &str) -> Result<f64, String> {

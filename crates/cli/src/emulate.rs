@@ -2,12 +2,12 @@
 
 use crate::args::{Emulate, Motion};
 use crate::craft::read;
-use crate::output::{Output, print};
+use crate::output::{Output, print, put};
 use crate::profile;
 use crate::report::{self, Done, Stop};
 use clayforge::emulate::motion::ProfileType;
 use clayforge::emulate::{
-    self, AdditiveOperation, AdditivePart, Bead, Commands, EventOptions, EventSeries, PolyData, Table,
+    self, Action, AdditiveOperation, AdditivePart, Bead, Commands, EventOptions, EventSeries, PolyData, Table,
 };
 use clayforge::gcode::{Diagnostic, Flavor, preprocess};
 use clayforge::{Error, Place, Profile};
@@ -29,6 +29,7 @@ pub fn run(emulate: &Emulate) -> Done {
     };
     let text = read(&emulate.file)?;
     let name = emulate.file.display().to_string();
+    clayforge::gcode::check_text(&text).map_err(|why| Error::new(format!("it is {why}")).said_by(&name))?;
     let flavor = flavor(emulate, &text)?;
     let program = preprocess(&text, &flavor).map_err(|fault| at(&fault).said_by(&name))?;
     let Commands { steps, diagnostics } = Commands::of(&program, &flavor);
@@ -72,18 +73,22 @@ pub fn run(emulate: &Emulate) -> Done {
             let _ = writeln!(said, "  and {} more", count - SAID as u64);
         }
         report::say(&said);
-        print(&described(&name, &flavor, &operation, &part))
+        print(&described(&name, &flavor, &operation, &part, emulate.machine.is_some()))
     }
 }
 
 /// The dialect that was named, or the one that the file speaks.
 fn flavor(emulate: &Emulate, text: &[u8]) -> Result<Flavor, Error> {
     let Some(name) = &emulate.flavor else { return Ok(Flavor::detect(text).flavor.clone()) };
+    if Flavor::named(name).is_none() && Path::new(name).exists() {
+        let bytes = read(Path::new(name))?;
+        return clayforge::read_flavor(&String::from_utf8_lossy(&bytes)).map_err(|error| error.said_by(name));
+    }
     let known =
         || Flavor::built_in().iter().map(|flavor| flavor.name.as_ref()).collect::<Vec<_>>().join(", ");
     Flavor::named(name).cloned().ok_or_else(|| {
         Error::new(format!("there is no flavor `{name}`"))
-            .hint(format!("known are {}", known()))
+            .hint(format!("a file, or one of {}", known()))
             .said_by("emulate")
     })
 }
@@ -110,6 +115,11 @@ fn ours(error: emulate::Error, name: &str) -> Error {
 fn write_files(emulate: &Emulate, operation: &AdditiveOperation<'_>, part: &AdditivePart<'_, '_>) -> Done {
     if let Some(path) = &emulate.csv {
         write(path, |out| Table::of_part(part).write_csv(out))?;
+    }
+    if let Some(path) = &emulate.picture {
+        let svg = emulate::picture(part, &emulate.color, emulate.view)
+            .map_err(|error| ours(error, &path.display().to_string()))?;
+        put(path, svg.as_bytes())?;
     }
     if let Some(path) = &emulate.events {
         let series = EventSeries::new(operation, &EventOptions::default());
@@ -188,6 +198,7 @@ fn described(
     flavor: &Flavor,
     operation: &AdditiveOperation<'_>,
     part: &AdditivePart<'_, '_>,
+    knows_unit: bool,
 ) -> String {
     let all = operation.statistics().unwrap_or_default();
     let volume = part.extruded_volume();
@@ -201,6 +212,9 @@ fn described(
         all.dwell_time,
         all.time_lost
     );
+    if operation.process_data().action().contains(&Action::Home) {
+        text.push_str("            homing takes a while that nobody knows; it is not in it\n");
+    }
     let _ = writeln!(
         text,
         "  way       {:.2} m: {:.2} m with clay, {:.2} m without",
@@ -214,8 +228,13 @@ fn described(
         all.mean_speed, all.max_speed
     );
     let mass = part.bead().mass(volume);
-    let _ =
-        writeln!(text, "  clay      {:.1} ml, {mass:.0} g, in {} layers", volume / 1000.0, part.n_layers());
+    let unit = if knows_unit { "" } else { "; E is taken for mm³, --machine says what it is" };
+    let _ = writeln!(
+        text,
+        "  clay      {:.1} ml, {mass:.0} g, in {} layers{unit}",
+        volume / 1000.0,
+        part.n_layers()
+    );
     if let Some(bounds) = operation.bounds() {
         let side = |axis: usize| format!("{:.2} to {:.2}", bounds.min[axis], bounds.max[axis]);
         let _ = writeln!(text, "  room      x {}, y {}, z {} mm", side(0), side(1), side(2));

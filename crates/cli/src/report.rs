@@ -88,7 +88,7 @@ pub fn summary(sliced: &Sliced, output: &str, wall: Duration) {
         );
         let _ = writeln!(
             text,
-            "{:.1} ml of clay, {:.0} g wet; about {} at the set speeds, acceleration not counted",
+            "{:.1} ml of clay, {:.0} g wet; about {} on the machine",
             figures.volume_mm3 / 1000.0,
             figures.mass_g,
             time(figures.time_s)

@@ -1,6 +1,31 @@
-//! A text as commands.
+//! A text as commands, and as the operation of a machine.
 
+use crate::error::Error;
+use crate::machine::Machine;
+use crate::operation::AdditiveOperation;
 use gcode::{Diagnostics, Flavor, Parser, Program, Step};
+
+/// What a machine makes of a program, from the text on. What is wrong with the text itself is in
+/// [`Commands::diagnostics`], which this leaves out.
+///
+/// ```
+/// use emulate::{Machine, read_operation};
+///
+/// let machine = Machine::default();
+/// let program = gcode::preprocess(b"G1 X100 E5 F6000\nG1 X0\n", &machine.flavor)?;
+/// let operation = read_operation(&program, &machine)?;
+/// assert_eq!(operation.total_time(), 2.0);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// As [`Machine::process`].
+pub fn read_operation<'a>(
+    program: &'a Program<'_>,
+    machine: &'a Machine,
+) -> Result<AdditiveOperation<'a>, Error> {
+    machine.process_additive(Commands::of(program, &machine.flavor).steps)
+}
 
 /// The commands of a text and what is wrong with it.
 ///

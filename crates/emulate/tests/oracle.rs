@@ -39,7 +39,7 @@ fn times_of_the_oracle() {
     for (name, expected) in [
         ("a_square", 27.030550090),
         ("b_vase", 35.217527802),
-        ("c_sfact", 515.192233570),
+        ("p_tile", 1168.825047846),
         ("e_zigzag", 5.176933129),
         ("g_corners", 2.994028029),
         ("d_arcs", 8.823151677),
@@ -58,10 +58,8 @@ fn every_model_and_profile_on_every_file() {
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();
     for line in lines {
         let cells: Vec<&str> = line.split(',').collect();
-        let cell = |name: &str| -> f64 {
-            let column = header.iter().position(|found| *found == name).expect("a column");
-            cells[column].parse().expect("a number")
-        };
+        let text = |name: &str| cells[header.iter().position(|found| *found == name).expect("a column")];
+        let cell = |name: &str| -> f64 { text(name).parse().expect("a number") };
         let motion = |junction: JunctionModel, profile: ProfileType| MotionProfile {
             junction,
             profile,
@@ -81,7 +79,10 @@ fn every_model_and_profile_on_every_file() {
             ("ref_scurve_j5000_s", motion(grbl, ProfileType::SCurve { jerk })),
             ("ref_scurve_strict_j5000_s", motion(grbl, ProfileType::SCurveStrict { jerk })),
         ] {
-            near(time(cells[0], motion), cell(column), &format!("{} {column}", cells[0]));
+            // pyGCodeDecode has not seen every file.
+            if column != "pygcd_total_s" || !text(column).is_empty() {
+                near(time(cells[0], motion), cell(column), &format!("{} {column}", cells[0]));
+            }
         }
     }
 }
@@ -89,8 +90,8 @@ fn every_model_and_profile_on_every_file() {
 #[test]
 fn the_s_curve_with_a_huge_jerk_is_a_trapezoid() {
     let profile = ProfileType::SCurve { jerk: 1e9 };
-    let found = time("c_sfact", MotionProfile { profile, ..planner(500.0, 0.05) });
-    assert!((found - 515.192955559).abs() < 1e-6, "{found}");
+    let found = time("p_tile", MotionProfile { profile, ..planner(500.0, 0.05) });
+    assert!((found - 1168.825339138).abs() < 1e-6, "{found}");
 }
 
 #[test]
@@ -112,7 +113,7 @@ fn a_stop_before_and_after_every_vertical_move() {
     }
     let stops: Arc<dyn MachineConstraints> = Arc::new(StopsForLayers);
     for (name, expected) in
-        [("a_square", 27.102048607), ("g_corners", 3.022169323), ("c_sfact", 515.259106582)]
+        [("a_square", 27.102048607), ("g_corners", 3.022169323), ("p_tile", 1169.774733066)]
     {
         for constraints in [stops.clone(), Arc::new(BaamConstraints::default())] {
             let motion = MotionProfile { constraints: Some(constraints), ..planner(500.0, 0.05) };
@@ -194,7 +195,7 @@ fn where_the_oracle_ends_and_how_far_it_goes() {
 
 #[test]
 fn a_stream_has_the_same_sums_as_the_columns() {
-    for name in ["a_square", "b_vase", "c_sfact", "d_arcs", "e_zigzag"] {
+    for name in ["a_square", "b_vase", "p_tile", "d_arcs", "e_zigzag"] {
         let text = data(&format!("{name}.gcode"));
         let machine = machine(planner(500.0, 0.05));
         let whole = machine.process_additive(Commands::read(&text).steps).expect("sound");
@@ -209,4 +210,24 @@ fn a_stream_has_the_same_sums_as_the_columns() {
         near(totals.deposition_length, statistics.deposition_length, name);
         assert!((totals.volume - whole.volume()).abs() < 1e-9 * whole.volume().max(1.0), "{name}");
     }
+}
+
+/// The oracle's own print may not be handed on with this repository (its mesh is under the AGPL). Where it is at hand:
+/// `CLAYFORGE_ORACLE=FOLDER cargo test -p emulate --test oracle -- --ignored`.
+#[test]
+#[ignore = "needs the folder of the oracle"]
+fn the_times_of_a_print_that_is_not_here() {
+    let folder = std::env::var_os("CLAYFORGE_ORACLE").expect("CLAYFORGE_ORACLE names the folder");
+    let text = std::fs::read(PathBuf::from(folder).join("c_sfact.gcode")).expect("the print of the oracle");
+    let time = |motion: MotionProfile| {
+        machine(motion).process(Commands::read(&text).steps).expect("a sound machine").total_time()
+    };
+    near(time(planner(500.0, 0.05)), 515.192233570, "GRBL");
+    near(time(MotionProfile::default()), 431.862592844, "at once");
+    let junction = JunctionModel::PyGCodeDecode;
+    near(time(MotionProfile { junction, ..planner(500.0, 0.05) }), 515.369618671, "pyGCodeDecode");
+    let constraints: Option<Arc<dyn MachineConstraints>> = Some(Arc::new(BaamConstraints::default()));
+    near(time(MotionProfile { constraints, ..planner(500.0, 0.05) }), 515.259106582, "stops for layers");
+    let profile = ProfileType::SCurve { jerk: 5000.0 };
+    near(time(MotionProfile { profile, ..planner(500.0, 0.05) }), 609.314832133, "S-curve");
 }

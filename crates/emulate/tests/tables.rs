@@ -55,9 +55,9 @@ fn event_series_are_those_of_py_gcode_decode() {
 
 #[test]
 fn the_series_of_a_whole_print_ends_when_the_oracle_does() {
-    let text = include_bytes!("data/c_sfact.gcode");
+    let text = include_bytes!("data/p_tile.gcode");
     for (junction, end) in
-        [(JunctionModel::Grbl, 515.192233570), (JunctionModel::PyGCodeDecode, 515.369618671)]
+        [(JunctionModel::Grbl, 1168.825047846), (JunctionModel::PyGCodeDecode, 1168.870466695)]
     {
         let operation = machine(junction).process_additive(Commands::read(text).steps).expect("sound");
         let series = EventSeries::new(&operation, &EventOptions::default());

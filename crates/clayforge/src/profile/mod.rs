@@ -1,10 +1,12 @@
 //! Profiles: what the settings of a print are, read from TOML with the place of every key.
 
 mod check;
+mod flavor;
 mod motion;
 mod show;
 mod toml;
 
+pub use flavor::read_flavor;
 pub use motion::Motion;
 pub(crate) use show::{bounds, wrapped};
 pub use show::{schema, starter};

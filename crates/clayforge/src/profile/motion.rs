@@ -29,7 +29,11 @@ impl Profile {
     /// The machine of this profile for the emulator.
     pub fn emulator(&self) -> Machine {
         let Motion { acceleration, junction_deviation, xy_speed, z_speed, e_speed } = &self.motion;
-        let [flat, up, e] = [xy_speed, z_speed, e_speed].map(|speed| speed.mm_per_s());
+        let [flat, up, mut e] = [xy_speed, z_speed, e_speed].map(|speed| speed.mm_per_s());
+        let known = self.machine.max_e_speed.f64();
+        if known > 0.0 {
+            e = e.min(known);
+        }
         Machine {
             motion: MotionProfile {
                 max_acceleration: Some(f64::from(*acceleration)),

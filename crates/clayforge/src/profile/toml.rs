@@ -112,7 +112,7 @@ impl super::Profile {
 }
 
 /// Line and column of a byte, both counted from one; the column in characters.
-fn place(text: &str, offset: usize) -> Place {
+pub(super) fn place(text: &str, offset: usize) -> Place {
     let before = text.get(..offset).unwrap_or(text);
     let line_start = before.rfind('\n').map_or(0, |at| at + 1);
     Place::Text {

@@ -115,6 +115,32 @@ impl Machine {
         Ok(SubtractiveOperation::new(Operation::new(steps, process, diagnostics), milling))
     }
 
+    /// Writes a program with whatever exporter it is given: a [`gcode::GcodeExporter`] for G-code of any flavor,
+    /// [`gcode::Row`]s, or one of one's own.
+    ///
+    /// ```
+    /// use emulate::{Commands, Machine};
+    /// use gcode::{Exporter, Step};
+    ///
+    /// /// Names the commands.
+    /// struct Names;
+    /// impl Exporter for Names {
+    ///     fn line(&mut self, step: &Step<'_>, out: &mut Vec<u8>) {
+    ///         out.extend_from_slice(step.command.kind().name().as_bytes());
+    ///         out.push(b'\n');
+    ///     }
+    /// }
+    ///
+    /// let steps = Commands::read(b"G90 G1 X5 F600\nG4 P10\n").steps;
+    /// let names = Machine::default().export(&steps, &mut Names);
+    /// assert_eq!(names, b"AbsolutePosition\nMove\nDwell\n");
+    /// ```
+    pub fn export(&self, steps: &[Step<'_>], exporter: &mut dyn gcode::Exporter) -> Vec<u8> {
+        let mut out = Vec::new();
+        steps.iter().for_each(|step| exporter.line(step, &mut out));
+        out
+    }
+
     /// Begins to emulate a program of any length, of which nothing but sums is kept.
     ///
     /// # Errors

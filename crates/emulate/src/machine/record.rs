@@ -218,6 +218,9 @@ impl<X: Extra> Record for Columns<'_, X> {
     }
 }
 
+/// A move is slow below this share of its speed.
+const SLOW: f64 = 0.5;
+
 /// Sums of an emulation.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Totals {
@@ -235,6 +238,10 @@ pub struct Totals {
     pub deposition_length: f64,
     /// The way without clay, mm.
     pub travel_length: f64,
+    /// The way that clay comes out on at less than half the speed that was asked for, mm.
+    pub slow_length: f64,
+    /// The line with the first of it.
+    pub first_slow: Option<u32>,
     /// What was deposited, mm³.
     pub volume: f64,
     /// What is wrong with the program.
@@ -253,6 +260,9 @@ pub(crate) struct Sum {
 pub(crate) struct Waiting {
     line: u32,
     clay: Clay,
+    /// The way of a deposit, mm, and how long it may take before it is slow, s.
+    length: f64,
+    patience: f64,
 }
 
 impl Sum {
@@ -277,17 +287,25 @@ impl Record for Sum {
     #[inline]
     fn row(&mut self, row: &Row, more: &More) -> Waiting {
         self.totals.commands += 1;
+        let (mut length, mut patience) = (0.0, f64::INFINITY);
         match row.action {
-            Action::Deposit => self.totals.deposition_length += row.length,
+            Action::Deposit => {
+                self.totals.deposition_length += row.length;
+                (length, patience) = (row.length, row.length / (row.feed_rate * SLOW));
+            }
             Action::Travel => self.totals.travel_length += row.length,
             _ => {}
         }
-        Waiting { line: row.line, clay: Clay::of(row, more, self.extruder) }
+        Waiting { line: row.line, clay: Clay::of(row, more, self.extruder), length, patience }
     }
 
     #[inline]
     fn moved(&mut self, tag: Waiting, step: &motion::Step, _: f64) {
         self.totals.moving_time += step.timing.time;
+        if step.timing.time > tag.patience {
+            self.totals.slow_length += tag.length;
+            self.totals.first_slow.get_or_insert(tag.line);
+        }
         self.totals.volume += self.debt.deposited(tag.clay.after(step.timing.time));
     }
 

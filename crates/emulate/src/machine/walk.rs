@@ -81,13 +81,6 @@ impl<'m, R: Record> Walk<'m, R> {
             }
             Effect::Home => {
                 self.stop()?;
-                self.diagnostics.push(Diagnostic {
-                    line: step.line,
-                    column: 0,
-                    kind: Problem::Machine(Cow::Borrowed(
-                        "how long homing takes is not known; it counts as 0 s",
-                    )),
-                });
                 self.row(step.line, Action::Home, before, None);
                 Ok(())
             }

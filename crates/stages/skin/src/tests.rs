@@ -79,7 +79,7 @@ fn sn1_a_wall_in_two_heights() {
     let done = craft(&stage, print(3));
     let edges: Vec<_> =
         beads(&done, 1).into_iter().filter(|bead| matches!(bead.0, Feature::Edge(_))).collect();
-    assert_eq!(edges.iter().map(|bead| bead.1).collect::<Vec<_>>(), [400, 600, 400, 600]);
+    assert_eq!(edges.iter().map(|bead| bead.1).collect::<Vec<_>>(), [400, 400, 600, 600]);
     assert!(edges.iter().all(|bead| bead.2 == 500_000));
     assert_eq!(edges[0].4, (540, 360));
     // The lowest layer stays.
