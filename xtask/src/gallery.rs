@@ -59,7 +59,16 @@ fn pieces() -> Vec<Piece> {
         .chain((0..=60).map(|step| [26.0 + 7.0 * libm::cos(TAU * f64::from(step) / 60.0), f64::from(step)]))
         .chain([[0.0, 60.0]])
         .collect();
-    let foot = [[0.0, 4.5], [17.0, 4.5], [17.0, 0.0], [20.2, 0.0], [20.2, 4.5], [32.0, 24.0], [32.0, 60.0], [0.0, 60.0]];
+    let foot = [
+        [0.0, 4.5],
+        [17.0, 4.5],
+        [17.0, 0.0],
+        [20.2, 0.0],
+        [20.2, 4.5],
+        [32.0, 24.0],
+        [32.0, 60.0],
+        [0.0, 60.0],
+    ];
     let slope = libm::tan(TAU / 12.0);
     vec![
         Piece { name: "cylinder", about: "The plain one.", walls: 1, mesh: revolve(&straight, 96, plain) },
@@ -73,7 +82,10 @@ fn pieces() -> Vec<Piece> {
             name: "lobes",
             about: "Five lobes.",
             walls: 2,
-            mesh: turned(&|[radius, z], angle| polar(radius * (1.0 + 0.14 * libm::cos(5.0 * angle)), angle, z), 120),
+            mesh: turned(
+                &|[radius, z], angle| polar(radius * (1.0 + 0.14 * libm::cos(5.0 * angle)), angle, z),
+                120,
+            ),
         },
         Piece {
             name: "twist",
@@ -91,7 +103,12 @@ fn pieces() -> Vec<Piece> {
                 [x + z * slope, y, z]
             }),
         },
-        Piece { name: "jug", about: "With a handle: where it stands free, layers are rings and a handle.", walls: 1, mesh: jug() },
+        Piece {
+            name: "jug",
+            about: "With a handle: where it stands free, layers are rings and a handle.",
+            walls: 1,
+            mesh: jug(),
+        },
         Piece { name: "foot", about: "A cup on a foot ring.", walls: 1, mesh: revolve(&foot, 96, plain) },
     ]
 }
@@ -101,7 +118,9 @@ fn jug() -> Mesh {
     const STEPS: u32 = 24;
     const AROUND: u32 = 12;
     let (mut vertices, mut triangles) =
-        revolve(&[[0.0, 0.0], [28.0, 0.0], [28.0, 70.0], [0.0, 70.0]], 96, |[radius, z], angle| polar(radius, angle, z));
+        revolve(&[[0.0, 0.0], [28.0, 0.0], [28.0, 70.0], [0.0, 70.0]], 96, |[radius, z], angle| {
+            polar(radius, angle, z)
+        });
     let first = vertices.len() as u32;
     for step in 0..=STEPS {
         // Half an ellipse from the wall above to the wall below.
@@ -132,7 +151,8 @@ fn jug() -> Mesh {
 fn wound(piece: &Piece) -> Result<(Skein, Vec<String>), String> {
     let mut part = Vec::new();
     encode(&mut part, piece.name, &piece.mesh).map_err(|error| error.to_string())?;
-    let mut profile = Profile::built_in("vase").ok_or("there is no profile `vase`")?.map_err(|error| error.to_string())?;
+    let mut profile =
+        Profile::built_in("vase").ok_or("there is no profile `vase`")?.map_err(|error| error.to_string())?;
     profile.set("fill.walls", &piece.walls.to_string()).map_err(|error| error.to_string())?;
     let mut skein = None;
     let mut watch = |event: Event<'_>| {
@@ -141,7 +161,8 @@ fn wound(piece: &Piece) -> Result<(Skein, Vec<String>), String> {
         }
         Ok(())
     };
-    let sliced = slice(part, &profile, None, &mut watch, &mut |_| Ok(())).map_err(|error| error.to_string())?;
+    let sliced =
+        slice(part, &profile, None, &mut watch, &mut |_| Ok(())).map_err(|error| error.to_string())?;
     let notes = sliced.notes.summary().into_iter().filter(|note| note.starts_with("coil")).collect();
     Ok((skein.ok_or("the chain has no coil")?, notes))
 }
@@ -165,7 +186,8 @@ fn drawn(skein: &Skein) -> String {
     let step = all.len().div_ceil(2_000).max(1);
     let side = beads.iter().flatten().map(|bead| {
         let ends = bead.iter().step_by(step).chain(bead.last());
-        ends.map(|at| (f64::from(at.x) / 1000.0 - x + ROOM / 2.0, ROOM - 8.0 - f64::from(at.z) / 1000.0)).collect()
+        ends.map(|at| (f64::from(at.x) / 1000.0 - x + ROOM / 2.0, ROOM - 8.0 - f64::from(at.z) / 1000.0))
+            .collect()
     });
     path(&mut svg, side, "stroke=\"#8a4b20\" stroke-width=\"0.5\"");
     let last = beads.len().saturating_sub(1);
@@ -173,7 +195,9 @@ fn drawn(skein: &Skein) -> String {
         let from_above = || {
             beads[layer].iter().map(|bead| {
                 let left = ROOM * (place as f64 + 1.5) - x;
-                let at = |at: &Point3| (f64::from(at.x) / 1000.0 + left, ROOM / 2.0 + y - f64::from(at.y) / 1000.0);
+                let at = |at: &Point3| {
+                    (f64::from(at.x) / 1000.0 + left, ROOM / 2.0 + y - f64::from(at.y) / 1000.0)
+                };
                 bead.iter().map(at).collect()
             })
         };

@@ -48,10 +48,10 @@ pub struct Plan<'a> {
 impl<'a> Plan<'a> {
     /// Decides what each layer becomes, and says why one stays as it is.
     pub fn new(coil: &'a Coil, sources: &'a [Source], notes: &mut Notes) -> Self {
-        // Where the walls are drawn, what is full is meant to be full.
-        let drawn = sources.iter().any(|source| matches!(&source.wall, Ok(wall) if !wall.full));
-        let rings: Vec<Option<Rings>> = sources.par_iter().map(|source| rings(coil, source, drawn)).collect();
-        let mut roles = roles(coil, sources, &rings, drawn, notes);
+        let floors = floors(sources);
+        let rings: Vec<Option<Rings>> =
+            sources.par_iter().zip(&floors).map(|(source, floor)| rings(coil, source, *floor)).collect();
+        let mut roles = roles(coil, sources, &rings, &floors, notes);
         let anchors = anchors(sources, &roles);
         let lanes: Vec<Option<Lane>> = sources
             .par_iter()
@@ -208,9 +208,29 @@ const OVERHANG: &str = "the turn reaches more than half a bead over the one belo
 /// A turn keeps no corner nearer to a straight line than half a hundredth of a bead.
 const FINENESS: f64 = 200.0;
 
+/// Which layers are solid: those that fill has made so, and the full ones below a wall that is drawn, for who draws the
+/// wall draws the floor, too.
+fn floors(sources: &[Source]) -> Vec<bool> {
+    let mut drawn = false;
+    let mut floors: Vec<bool> = sources
+        .iter()
+        .rev()
+        .map(|source| match &source.wall {
+            Ok(wall) if wall.full => source.solid || drawn,
+            Ok(_) => {
+                drawn = true;
+                false
+            }
+            Err(_) => false,
+        })
+        .collect();
+    floors.reverse();
+    floors
+}
+
 /// The rings of a layer that may be one of the base.
-fn rings(coil: &Coil, source: &Source, drawn: bool) -> Option<Rings> {
-    let wall = source.wall.as_ref().ok().filter(|wall| wall.full && (source.solid || drawn))?;
+fn rings(coil: &Coil, source: &Source, floor: bool) -> Option<Rings> {
+    let wall = source.wall.as_ref().ok().filter(|_| floor)?;
     Rings::inside(wall.beads.first()?, source.bead.spacing().um() * coil.base_spacing.f64())
 }
 
@@ -219,7 +239,7 @@ fn roles(
     coil: &Coil,
     sources: &[Source],
     rings: &[Option<Rings>],
-    drawn: bool,
+    floors: &[bool],
     notes: &mut Notes,
 ) -> Vec<Role> {
     let mut roles: Vec<Role> = Vec::with_capacity(sources.len());
@@ -235,9 +255,16 @@ fn roles(
         };
         let same =
             |index: usize| matches!(&sources[index].wall, Ok(other) if other.beads.len() == wall.beads.len());
-        let on_turn = matches!(below, Some(Role::Turn { .. } | Role::Flat)) && same(index - 1);
+        let hollow = |index: usize| matches!(&sources[index].wall, Ok(other) if !other.full);
+        let on_hollow = floors[index] && index > 0 && hollow(index - 1);
+        let on_turn = matches!(below, Some(Role::Turn { .. } | Role::Flat)) && same(index - 1) && !on_hollow;
         let role = match below {
-            _ if (source.solid || drawn) && wall.full && !on_turn => match (&rings[index], coil.base) {
+            // Rings would fall into what is open below; the lines of fill reach across.
+            _ if on_hollow && source.solid => {
+                notes.layer(index, "it stays as fill laid it: it closes what is open below");
+                Role::Layered
+            }
+            _ if floors[index] && !on_turn => match (&rings[index], coil.base) {
                 (_, Base::AsFilled) => Role::Layered,
                 (None, _) => {
                     notes.layer(index, "the base stays as fill laid it: it has no single middle to go round");

@@ -368,6 +368,55 @@ fn hollow_and_empty_layers_pass() {
     assert_eq!(skein.lines().filter(|line| **line == Line::Off).count(), 1);
 }
 
+/// A cup on a foot: a ring, then a floor across it, then the pot.
+#[test]
+fn a_pot_on_a_foot_ring_has_a_floor() {
+    let mut skein = CYLINDER.skein();
+    let foot = Pot { base: 0, ..CYLINDER }.skein();
+    let inside = offset(&[CYLINDER.outline(0)], -WIDTH);
+    for (index, mut layer) in foot.layers.into_iter().take(2).enumerate() {
+        let z = layer.z().0;
+        let ring = inside[0]
+            .0
+            .iter()
+            .rev()
+            .map(|at| Line::Point(skein::Mark::Boundary, Point3 { x: at.x, y: at.y, z }));
+        let block = std::iter::once(Line::Open(skein::Tag::BoundaryPerimeter))
+            .chain(ring)
+            .chain([Line::Close(skein::Tag::BoundaryPerimeter)]);
+        let end = layer.lines.iter().position(|line| *line == Line::Close(skein::Tag::BoundaryPerimeter));
+        let end = end.expect("an outline") + 1;
+        layer.lines.splice(end..end, block);
+        skein.layers.insert(index, layer);
+    }
+    // The pot stands on its foot.
+    for (index, layer) in skein.layers.iter_mut().enumerate().skip(2) {
+        let up = 2 * HEIGHT;
+        for line in &mut layer.lines {
+            match line {
+                Line::Layer(z) => z.0 += up,
+                Line::Point(_, at) => at.z += up,
+                line => {
+                    if let Some(step) = line.as_move_mut() {
+                        step.to.z += up;
+                    }
+                }
+            }
+        }
+        assert_eq!(layer.z().0, index as i32 * HEIGHT + HEIGHT / 2);
+    }
+    let before = skein.clone();
+    let mut notes = Notes::default();
+    let after = Coil::default().craft(skein, &mut notes).expect("a pot");
+    after.verify().expect("the laws of a skein");
+    // The foot is wound, the first layer of the floor reaches across, the second is wound again and goes on as the wall.
+    assert_ne!(after.layers[1], before.layers[1]);
+    assert_eq!(after.layers[2], before.layers[2]);
+    let infill = |layer: &skein::Layer| layer.lines.contains(&Line::Open(skein::Tag::Infill));
+    assert!(infill(&after.layers[3]) && !infill(&after.layers[4]));
+    assert!(notes.iter().any(|note| note.layer == Some(2) && note.text.contains("open below")));
+}
+
 #[test]
 fn settings_have_bounds() {
     let mut coil = Coil::default();
