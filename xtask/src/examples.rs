@@ -134,7 +134,7 @@ fn cube(size: f32) -> Mesh {
     (vertices, quads.iter().flat_map(|[a, b, c, d]| [[*a, *b, *c], [*a, *c, *d]]).collect())
 }
 
-fn polar(radius: f64, angle: f64, z: f64) -> [f64; 3] {
+pub fn polar(radius: f64, angle: f64, z: f64) -> [f64; 3] {
     [radius * libm::cos(angle), radius * libm::sin(angle), z]
 }
 
@@ -144,7 +144,7 @@ fn narrow(point: [f64; 3]) -> [f32; 3] {
 
 /// Turns a profile of radius and height around the z axis. It starts and ends on the axis, and runs outwards along
 /// the bottom, so that the surface is closed and its outside is out.
-fn revolve(profile: &[[f64; 2]], around: usize, place: impl Fn([f64; 2], f64) -> [f64; 3]) -> Mesh {
+pub fn revolve(profile: &[[f64; 2]], around: usize, place: impl Fn([f64; 2], f64) -> [f64; 3]) -> Mesh {
     let [bottom, rings @ .., top] = profile else { return Mesh::default() };
     let around = around as u32;
     let mut vertices = vec![narrow(place(*bottom, 0.0))];
@@ -220,7 +220,7 @@ fn write(path: &Path, name: &str, mesh: &Mesh) -> Result<(), String> {
         .map_err(|error| format!("{}: {error}", path.display()))
 }
 
-fn encode(out: &mut impl Write, name: &str, (vertices, triangles): &Mesh) -> std::io::Result<()> {
+pub fn encode(out: &mut impl Write, name: &str, (vertices, triangles): &Mesh) -> std::io::Result<()> {
     // Some readers take a header that starts with `solid` for text.
     write!(out, "{:<80.80}", format!("clayforge example: {name}, millimetres"))?;
     out.write_all(&(triangles.len() as u32).to_le_bytes())?;

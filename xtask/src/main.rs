@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 mod examples;
+mod gallery;
 mod new_stage;
 mod pictures;
 
@@ -18,6 +19,7 @@ const USAGE: &str = "\
 usage: cargo xtask examples [--dir DIR]                    the parts in examples/
        cargo xtask examples --vase TRIANGLES --out FILE    one vase of any fineness
        cargo xtask pictures                                docs/vase.svg and the pictures of the stage pages
+       cargo xtask gallery                                 docs/gallery.md and its pictures
        cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it";
 
 fn main() -> ExitCode {
@@ -25,6 +27,7 @@ fn main() -> ExitCode {
     let result = match args.split_first() {
         Some((name, args)) if name == "examples" => examples::run(args),
         Some((name, args)) if name == "pictures" => pictures::run(args),
+        Some((name, _)) if name == "gallery" => gallery::run(),
         Some((name, args)) if name == "new-stage" => new_stage::run(args),
         _ => Err(USAGE.to_string()),
     };

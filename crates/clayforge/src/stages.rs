@@ -56,6 +56,7 @@ stages! {
     off skein widen::Widen: "Moves the outside outwards where a hole leaves too little clay.";
     on skein inset::Inset: "Lays the outermost wall half a bead inside the outline.";
     on skein fill::Fill: "Adds the inner walls and the infill and puts the threads in order.";
+    off skein coil::Coil: "Winds the wall as one thread from the base to the rim.";
     off skein multiply::Multiply: "Prints the part in rows and columns.";
     on skein speed::Speed: "Says how fast every move is made.";
     off skein temperature::Temperature: "Says how hot the nozzle is, for machines that heat.";
@@ -132,6 +133,7 @@ const ORDERS: &[&[&str]] = &[
         "widen",
         "inset",
         "fill",
+        "coil",
         "multiply",
         "speed",
         "raft",

@@ -23,6 +23,7 @@ pub const BUILT_IN: &[(&str, &str)] = &[
     ("clay", include_str!("../../../../profiles/clay.toml")),
     ("generic-ram", include_str!("../../../../profiles/generic-ram.toml")),
     ("generic-auger", include_str!("../../../../profiles/generic-auger.toml")),
+    ("vase", include_str!("../../../../profiles/vase.toml")),
 ];
 
 /// How deep profiles may inherit: more is a mistake.

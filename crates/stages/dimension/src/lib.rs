@@ -25,19 +25,19 @@ pub struct Dimension {
     pub flow: Ratio,
     /// How much clay is drawn back where a bead ends and pushed in again where the next begins. It takes the pressure
     /// off, so that less follows on the travel; too much draws air into the nozzle.
-    #[setting(default = 0.0, min = 0.0, max = 2000.0, unit = "mm³")]
+    #[setting(default = 0.0, min = 0.0, max = 1000.0, unit = "mm³")]
     pub retraction_volume: Ratio,
     /// What is pushed in beyond what was drawn back: what has been lost on the travel.
-    #[setting(default = 0.0, min = 0.0, max = 2000.0, unit = "mm³")]
+    #[setting(default = 0.0, min = 0.0, max = 1000.0, unit = "mm³")]
     pub restart_extra_volume: Ratio,
     /// What is pushed in before the very first bead, until the clay is at the end of the nozzle.
-    #[setting(default = 0.0, min = 0.0, max = 2000.0, unit = "mm³")]
+    #[setting(default = 0.0, min = 0.0, max = 1000.0, unit = "mm³")]
     pub prime_volume: Ratio,
     /// How fast clay is drawn back. The machine's own limit for the ram is a matter of its firmware.
-    #[setting(default = 200.0, min = 0.1, max = 2000.0, unit = "mm³/s")]
+    #[setting(default = 200.0, min = 0.1, max = 1000.0, unit = "mm³/s")]
     pub retraction_speed: Ratio,
     /// How fast clay is pushed in again.
-    #[setting(default = 200.0, min = 0.1, max = 2000.0, unit = "mm³/s")]
+    #[setting(default = 200.0, min = 0.1, max = 1000.0, unit = "mm³/s")]
     pub restart_speed: Ratio,
     /// A travel up to this length over clay wants no relief; from twice this length on it wants all, between them a
     /// part.

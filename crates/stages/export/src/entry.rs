@@ -12,6 +12,8 @@ pub(crate) struct Entry {
     pub(crate) feed: Option<Feed>,
     /// The share of the nominal section that flows.
     pub(crate) flow: Option<Ratio>,
+    /// Whether clay flows already: a spiral goes on from layer to layer.
+    pub(crate) on: bool,
     /// The last E word, for files that count from the start.
     pub(crate) e: Option<Extrusion>,
 }
@@ -23,6 +25,7 @@ pub(crate) struct Change {
     at: Option<Option<Point3>>,
     feed: Option<Feed>,
     flow: Option<Ratio>,
+    on: Option<bool>,
     e: Option<Extrusion>,
 }
 
@@ -40,6 +43,11 @@ impl Change {
                 Line::Flow(flow) => Some(*flow),
                 _ => None,
             }),
+            on: lines.iter().rev().find_map(|line| match line {
+                Line::On => Some(true),
+                Line::Off => Some(false),
+                _ => None,
+            }),
             e: moves().find_map(|step| step.extrusion),
         }
     }
@@ -52,6 +60,7 @@ impl Entry {
             at: change.at.unwrap_or(self.at),
             feed: change.feed.or(self.feed),
             flow: change.flow.or(self.flow),
+            on: change.on.unwrap_or(self.on),
             e: change.e.or(self.e),
         }
     }

@@ -120,7 +120,7 @@ impl<'a> Pen<'a> {
         Self {
             style,
             size,
-            nozzle: Nozzle { at: entry.at, feed: entry.feed, flow, ..Nozzle::default() },
+            nozzle: Nozzle { at: entry.at, on: entry.on, feed: entry.feed, flow, ..Nozzle::default() },
             at: entry.at.map_or(Axes::default(), |at| style.rounded(at).into()),
             feed: None,
             e: entry.e,

@@ -48,6 +48,12 @@ impl Stage for Multiply {
         let Some(bounds) = laid(&skein) else { return Ok(skein) };
         let shifts = self.shifts(bounds, width)?;
         let nozzles = skein.nozzles();
+        if self.columns * self.rows > 1 && nozzles.iter().take(skein.layers.len()).any(|nozzle| nozzle.on) {
+            return Err(Error::new(
+                "a spiral goes on from layer to layer and cannot be laid in turns with its copies",
+            )
+            .hint("print the pots one after the other, or set `coil.active` to false"));
+        }
         let skein = skein.rewrite(notes, |index, layer, _| {
             Ok(repeat(layer, &nozzles[index], self.order(index).into_iter().map(|copy| shifts[copy])))
         })?;

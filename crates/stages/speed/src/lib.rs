@@ -81,9 +81,10 @@ impl Stage for Speed {
             })?;
         }
         // Whatever moves before the first layer lies on the bed like the first layer.
-        self.pace(0, &mut skein.head)?;
-        self.pace(usize::MAX, &mut skein.tail)?;
-        skein.each(|index, layer| self.pace(index, &mut layer.lines))?;
+        let nozzles = skein.nozzles();
+        self.pace(0, false, &mut skein.head)?;
+        self.pace(usize::MAX, nozzles.last().is_some_and(|nozzle| nozzle.on), &mut skein.tail)?;
+        skein.each(|index, layer| self.pace(index, nozzles[index].on, &mut layer.lines))?;
         Ok(skein)
     }
 }
@@ -92,9 +93,10 @@ impl Speed {
     /// Gives the moves of one layer their feed.
     ///
     /// As on the machine a feed holds until the next one, so it is said only when it changes. The first travel and the
-    /// first bead of a layer always say theirs: a layer can be moved, copied or left out and is still right.
-    fn pace(&self, layer: usize, lines: &mut [Line]) -> Result<(), Error> {
-        let mut nozzle = Nozzle::default();
+    /// first bead of a layer always say theirs: a layer can be moved, copied or left out and is still right. In a spiral
+    /// clay is `on` already when a layer begins.
+    fn pace(&self, layer: usize, on: bool, lines: &mut [Line]) -> Result<(), Error> {
+        let mut nozzle = Nozzle { on, ..Nozzle::default() };
         let mut bridge = false;
         let travel = self.travel(layer)?;
         let (mut has_travelled, mut has_laid) = (false, false);
