@@ -55,6 +55,7 @@ stages! {
     off skein widen::Widen: "Moves the outside outwards where a hole leaves too little clay.";
     on skein inset::Inset: "Lays the outermost wall half a bead inside the outline.";
     on skein fill::Fill: "Adds the inner walls and the infill and puts the threads in order.";
+    off skein join::Join: "Makes one thread of everything that is laid on an island.";
     off skein multiply::Multiply: "Prints the part in rows and columns.";
     on skein speed::Speed: "Says how fast every move is made.";
     off skein temperature::Temperature: "Says how hot the nozzle is, for machines that heat.";
@@ -130,6 +131,7 @@ const ORDERS: &[&[&str]] = &[
         "widen",
         "inset",
         "fill",
+        "join",
         "multiply",
         "speed",
         "raft",
