@@ -123,7 +123,8 @@ impl Join {
             {
                 let near = before.distance(first.start) <= tree::REACH * spacing;
                 // Nothing flows through a layer without beads.
-                first.flows_on = near && layers.last().is_some_and(|below| below.iter().any(|paths| !paths.is_empty()));
+                first.flows_on =
+                    near && layers.last().is_some_and(|below| below.iter().any(|paths| !paths.is_empty()));
             }
             layers.push(layer);
         }

@@ -30,7 +30,9 @@ fn shorten(from: Point, boxes: &[(Point, Point)], order: &mut [usize]) {
             for last in first + 1..order.len().min(first + WINDOW) {
                 let before = if first == 0 { (from, from) } else { boxes[order[first - 1]] };
                 let way = |one: usize, other: usize| {
-                    let after = order.get(last + 1).map_or(0.0, |after| root(gap(boxes[order[other]], boxes[*after])));
+                    let after = order
+                        .get(last + 1)
+                        .map_or(0.0, |after| root(gap(boxes[order[other]], boxes[*after])));
                     root(gap(before, boxes[order[one]])) + after
                 };
                 if way(last, first) + 1.0 < way(first, last) {

@@ -39,7 +39,11 @@ impl Report {
         let mut stops = Vec::new();
         let mut before: Option<(usize, usize, Point)> = None;
         for (layer, (_, islands)) in sheets.iter().zip(paths).enumerate() {
-            for (island, path) in islands.iter().enumerate().flat_map(|(index, paths)| paths.iter().map(move |path| (index, path))) {
+            for (island, path) in islands
+                .iter()
+                .enumerate()
+                .flat_map(|(index, paths)| paths.iter().map(move |path| (index, path)))
+            {
                 if let Some((last_layer, last_island, at)) = before.filter(|_| !path.flows_on) {
                     let length = at.distance(path.start);
                     let why = match (last_layer == layer, last_island == island) {
@@ -68,7 +72,10 @@ impl Report {
             let at = format!("x {:.1} y {:.1}", f64::from(first.at.x) / 1e3, f64::from(first.at.y) / 1e3);
             return Err(Error::layer(
                 first.layer,
-                format!("clay stops at {at}, the first of {count} interruptions; `max_interruptions` is {}", join.max_interruptions),
+                format!(
+                    "clay stops at {at}, the first of {count} interruptions; `max_interruptions` is {}",
+                    join.max_interruptions
+                ),
             )
             .hint(self.advice(join)));
         }
@@ -92,10 +99,14 @@ impl Report {
         let (rises, far, islands, apart) =
             (count(Why::Rise), count(Why::FarRise), count(Why::Island), count(Why::Apart));
         if rises > 0 && !join.through_layers {
-            parts.push(format!("{rises} are between layers: `join.through_layers = true` does away with them"));
+            parts.push(format!(
+                "{rises} are between layers: `join.through_layers = true` does away with them"
+            ));
         }
         if far > 0 {
-            parts.push(format!("{far} lead to layers that begin elsewhere: `join.seam = \"nearest\"` keeps them short"));
+            parts.push(format!(
+                "{far} lead to layers that begin elsewhere: `join.seam = \"nearest\"` keeps them short"
+            ));
         }
         if islands > 0 {
             parts.push(format!("{islands} lead to other islands: only a part in one piece has none"));

@@ -165,7 +165,8 @@ impl Sheet {
 /// Writes a thread; each change of what the bead is for closes one block and opens the next.
 fn write_path(path: &Path, z: i32, goes_on: bool, pen: &mut Pen) {
     let place = |at: Point| Point3 { x: at.x, y: at.y, z };
-    let rise = path.flows_on.then(|| path.steps.first().map(|first| Step { to: path.start, ..*first })).flatten();
+    let rise =
+        path.flows_on.then(|| path.steps.first().map(|first| Step { to: path.start, ..*first })).flatten();
     let mut open: Option<Feature> = None;
     for step in rise.iter().chain(&path.steps).chain(path.closing.as_ref().filter(|_| !goes_on)) {
         if open != Some(step.feature) {

@@ -68,9 +68,8 @@ impl Strand {
         let (from, to) = (self.points[side], self.corner(side + 1));
         let whole = self.starts[side + 1] - self.starts[side];
         let share = if whole > 0.0 { ((length - self.starts[side]) / whole).clamp(0.0, 1.0) } else { 0.0 };
-        let between = |from: i32, to: i32| {
-            (f64::from(from) + (f64::from(to) - f64::from(from)) * share).round() as i32
-        };
+        let between =
+            |from: i32, to: i32| (f64::from(from) + (f64::from(to) - f64::from(from)) * share).round() as i32;
         Point::new(between(from.x, to.x), between(from.y, to.y))
     }
 

@@ -25,12 +25,7 @@ fn open(points: &[(i32, i32)]) -> Strand {
 }
 
 fn outline(low: i32, high: i32) -> Ring {
-    Ring(vec![
-        Point::new(low, low),
-        Point::new(high, low),
-        Point::new(high, high),
-        Point::new(low, high),
-    ])
+    Ring(vec![Point::new(low, low), Point::new(high, low), Point::new(high, high), Point::new(low, high)])
 }
 
 /// Length times flow of all paths.
@@ -101,8 +96,16 @@ fn the_longest_open_strand_comes_last_and_once_and_others_are_gone_over_twice() 
 #[test]
 fn no_step_crosses_an_outline() {
     // Two walls as near as beads, with a slot between.
-    let strands = [square(1500, 20000), ring(&[(23000, 1500), (40000, 1500), (40000, 20000), (23000, 20000)], Side::Outer)];
-    let slot = Ring(vec![Point::new(21400, -5000), Point::new(21600, -5000), Point::new(21600, 90000), Point::new(21400, 90000)]);
+    let strands = [
+        square(1500, 20000),
+        ring(&[(23000, 1500), (40000, 1500), (40000, 20000), (23000, 20000)], Side::Outer),
+    ];
+    let slot = Ring(vec![
+        Point::new(21400, -5000),
+        Point::new(21600, -5000),
+        Point::new(21600, 90000),
+        Point::new(21400, 90000),
+    ]);
     assert_eq!(join(&strands, &[slot]).len(), 2);
     assert_eq!(join(&strands, &[]).len(), 1);
 }

@@ -10,7 +10,7 @@
 
 use crate::grid::{Grid, Near, Side};
 use crate::strand::Strand;
-use skein::{Point, Ring};
+use skein::{Feature, Point, Ring};
 use std::collections::VecDeque;
 
 /// How a strand is visited.
@@ -108,11 +108,19 @@ impl<'a> Weave<'a> {
         weave
     }
 
+    /// Of every end of an open strand the nearest strand, the nearest wall and the nearest wall that is not seen: where
+    /// several open strands meet, the nearest is often another that leads nowhere.
     fn find_ends(&mut self) {
         for (index, strand) in self.strands.iter().enumerate().filter(|(_, strand)| !strand.closed) {
             for here in [0.0, strand.length()] {
-                if let Some(near) = self.beside_end(index, here) {
-                    let (other, there) = (near.owner as usize, near.along);
+                let near = [
+                    self.beside_end(index, here, |_| true),
+                    self.beside_end(index, here, |other| other.closed),
+                    self.beside_end(index, here, |other| other.closed && !is_edge(other)),
+                ];
+                for (place, found) in near.iter().enumerate() {
+                    let (Some(found), false) = (found, near[..place].contains(found)) else { continue };
+                    let (other, there) = (found.owner as usize, found.along);
                     self.ends[index].push(EndContact { here, other, there });
                     self.ends[other].push(EndContact { here: there, other: index, there: here });
                 }
@@ -121,9 +129,10 @@ impl<'a> Weave<'a> {
     }
 
     /// What an end of an open strand is nearest to, if the way there is inside.
-    fn beside_end(&self, index: usize, here: f64) -> Option<Near> {
+    fn beside_end(&self, index: usize, here: f64, wanted: impl Fn(&Strand) -> bool) -> Option<Near> {
         let at = self.strands[index].at(here);
-        let near = self.sides.nearest(at, |other| other as usize != index)?;
+        let wanted = |other: u32| other as usize != index && wanted(&self.strands[other as usize]);
+        let near = self.sides.nearest(at, wanted)?;
         let there = self.strands[near.owner as usize].at(near.along);
         (!self.outlines.is_crossed(at, there)).then_some(near)
     }
@@ -142,7 +151,8 @@ impl<'a> Weave<'a> {
             let length = |index: usize| self.strands[index].length();
             length(*one).total_cmp(&length(*other)).then(other.cmp(one))
         };
-        let open = || (0..self.strands.len()).filter(|index| !self.visited[*index] && !self.strands[*index].closed);
+        let open =
+            || (0..self.strands.len()).filter(|index| !self.visited[*index] && !self.strands[*index].closed);
         // The longest open strand is laid last and once; it would cost most to go back over.
         let on_wall = |index: &usize| self.ends[*index].iter().any(|end| self.is_free_wall(end.other));
         let tail = open().filter(on_wall).max_by(longest);
@@ -170,17 +180,21 @@ impl<'a> Weave<'a> {
     /// A tree that begins on a wall and ends with an open strand. From its seam the wall is walked all the way round, and
     /// on to where the open strand begins.
     fn with_tail(&mut self, tail: usize, seam: Point) -> Tree {
-        let mut best: Option<(f64, EndContact, f64, bool)> = None;
+        // Not on the wall that is seen, if there is another; then with the shortest way on it.
+        let mut best: Option<(bool, f64, EndContact, f64, bool)> = None;
         for end in self.ends[tail].iter().filter(|end| self.is_free_wall(end.other)) {
             let entry = self.nearest_on(end.other, seam);
             let ahead = self.strands[end.other].wrapped(end.there - entry);
             let behind = self.strands[end.other].length() - ahead;
             let (again, forward) = if ahead <= behind { (ahead, true) } else { (behind, false) };
-            if best.is_none_or(|(least, ..)| again < least) {
-                best = Some((again, *end, entry, forward));
+            let seen = is_edge(&self.strands[end.other]);
+            if best.is_none_or(|(edge, least, ..)| (seen, again) < (edge, least)) {
+                best = Some((seen, again, *end, entry, forward));
             }
         }
-        let Some((again, end, entry, forward)) = best else { return Tree { visits: Vec::new(), again: 0.0 } };
+        let Some((_, again, end, entry, forward)) = best else {
+            return Tree { visits: Vec::new(), again: 0.0 };
+        };
         let root = self.root(end.other, entry, forward);
         let whole = self.strands[tail].length();
         let gap = self.strands[tail].at(end.here).distance(self.strands[end.other].at(end.there));
@@ -286,21 +300,22 @@ impl<'a> Weave<'a> {
             let visit = &tree.visits[parent];
             self.along_walk(visit, self.nearest_on(visit.strand, seam))
         };
-        let mut stems: Vec<(f64, Near)> = Vec::new();
+        let mut beside: Vec<(f64, Near)> = Vec::new();
         for leave in outwards(middle, length, self.spacing / 2.0) {
             let at = self.place(&tree.visits[parent], leave);
             let near = self.sides.nearest(at, |other| self.is_free_wall(other as usize));
             let Some(near) = near.filter(|near| near.distance <= reach) else { continue };
-            if !stems.iter().any(|(_, other)| other.owner == near.owner) {
-                stems.push((leave, near));
-            }
-            self.rung(tree, parent, leave, near, queue);
+            beside.push((leave, near));
+            self.rung(tree, parent, leave, near, EVEN, queue);
             if self.closed_left == 0 {
                 return;
             }
         }
+        for (leave, near) in &beside {
+            self.rung(tree, parent, *leave, *near, UNEVEN, queue);
+        }
         // What is too small or too crooked for a rung.
-        for (leave, near) in stems {
+        for (leave, near) in beside {
             let strand = near.owner as usize;
             let leave = tree.visits[parent].free_near(leave);
             let at = self.place(&tree.visits[parent], leave);
@@ -312,7 +327,18 @@ impl<'a> Weave<'a> {
     }
 
     /// Joins a closed strand to one that runs beside it for a bead's width, if that is so here.
-    fn rung(&mut self, tree: &mut Tree, parent: usize, leave: f64, near: Near, queue: &mut VecDeque<usize>) {
+    fn rung(
+        &mut self,
+        tree: &mut Tree,
+        parent: usize,
+        leave: f64,
+        near: Near,
+        tolerance: f64,
+        queue: &mut VecDeque<usize>,
+    ) {
+        if self.visited[near.owner as usize] {
+            return;
+        }
         let visit = &tree.visits[parent];
         let child = &self.strands[near.owner as usize];
         let resume = leave + self.spacing;
@@ -325,11 +351,11 @@ impl<'a> Weave<'a> {
         let whole = child.length();
         let ahead = child.wrapped(other.along - near.along);
         let (short, forward) = if ahead <= whole / 2.0 { (ahead, false) } else { (whole - ahead, true) };
-        let even = (0.5..=1.6).contains(&(short / self.spacing)) && whole > 3.0 * self.spacing;
+        let even = |length: f64| (length / self.spacing - 1.0).abs() <= tolerance;
         let (from, to) = (self.place(visit, leave), back);
         let (enter, exit) = (child.at(near.along), child.at(other.along));
-        if !even
-            || other.distance > BESIDE * self.spacing
+        if !(even(short) && even(near.distance) && even(other.distance))
+            || whole < 3.0 * self.spacing
             || self.outlines.is_crossed(from, enter)
             || self.outlines.is_crossed(exit, to)
         {
@@ -338,10 +364,11 @@ impl<'a> Weave<'a> {
         let first = if forward { other.along } else { near.along };
         // Of what is walked twice only the half of the first time is left out.
         let again = if parent == 0 { tree.again } else { 0.0 };
-        let (once, twice) = (self.laid(visit, leave.max(again), resume), self.laid(visit, leave, resume.min(again)));
+        let (once, twice) =
+            (self.laid(visit, leave.max(again), resume), self.laid(visit, leave, resume.min(again)));
         let left_out = child.laid(first, first + short) + (once + twice / 2.0) * visit.share;
         let flow = left_out / (from.distance(enter) + exit.distance(to)).max(1.0);
-        if flow > MOST {
+        if (flow - 1.0).abs() > MOST {
             return;
         }
         let strand = near.owner as usize;
@@ -373,8 +400,12 @@ impl<'a> Weave<'a> {
     }
 }
 
-/// A step over takes at most half as much clay again as a bead.
-const MOST: f64 = 1.6;
+/// The sides of the square that a rung makes of two strands are as long as beads are apart, or so much longer or shorter.
+const EVEN: f64 = 0.15;
+/// The same where no place is better.
+const UNEVEN: f64 = 0.5;
+/// The flow of a step over is within so much of a bead's.
+const MOST: f64 = 0.6;
 
 impl Visit {
     /// The place on the strand of a place along the walk, perhaps rounds away.
@@ -401,7 +432,11 @@ impl Visit {
         let after = self.children.partition_point(|child| child.leave < along);
         match after.checked_sub(1).map(|index| &self.children[index]) {
             Some(child) if child.end() > along => {
-                if along - child.leave <= child.end() - along { child.leave } else { child.end() }
+                if along - child.leave <= child.end() - along {
+                    child.leave
+                } else {
+                    child.end()
+                }
             }
             _ => along,
         }
@@ -419,6 +454,11 @@ impl Child {
     fn end(&self) -> f64 {
         self.resume.unwrap_or(self.leave)
     }
+}
+
+/// Whether a strand is seen from outside.
+fn is_edge(strand: &Strand) -> bool {
+    matches!(strand.feature, Feature::Edge(_))
 }
 
 /// Places along a length from a middle outwards, a step apart.

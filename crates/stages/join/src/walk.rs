@@ -12,7 +12,7 @@ pub fn path(strands: &[Strand], tree: &Tree, rise: f64) -> Path {
     walker.run();
     let start = strands[root.strand].at(root.entry);
     let mut path = Path { start, steps: walker.steps, closing: None, flows_on: false };
-    if tree.again == 0.0 && strands[root.strand].closed {
+    if path.start == path.end() && strands[root.strand].closed {
         close(&mut path, rise);
     }
     path
@@ -27,8 +27,9 @@ fn close(path: &mut Path, rise: f64) {
         let length = from.distance(last.to);
         if length > left {
             let share = 1.0 - left / length;
-            let between =
-                |from: i32, to: i32| (f64::from(from) + (f64::from(to) - f64::from(from)) * share).round() as i32;
+            let between = |from: i32, to: i32| {
+                (f64::from(from) + (f64::from(to) - f64::from(from)) * share).round() as i32
+            };
             let to = Point::new(between(from.x, last.to.x), between(from.y, last.to.y));
             path.steps.push(Step { to, ..last });
         }
@@ -85,7 +86,8 @@ impl Walker<'_> {
     fn enter(&mut self, parent: &Visit, child: &Child) -> Place {
         let visit = &self.tree.visits[child.visit];
         self.over(visit, self.strands[visit.strand].at(visit.entry), child.flow);
-        let back = child.resume.map(|resume| (self.strands[parent.strand].at(parent.on_strand(resume)), child.flow));
+        let back =
+            child.resume.map(|resume| (self.strands[parent.strand].at(parent.on_strand(resume)), child.flow));
         Place { visit: child.visit, next: 0, along: 0.0, back }
     }
 
