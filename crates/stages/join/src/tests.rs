@@ -86,11 +86,13 @@ fn the_longest_open_strand_comes_last_and_once_and_others_are_gone_over_twice() 
     let paths = join(&strands, &[outline(0, 60000)]);
     assert_eq!(paths.len(), 1);
     assert_eq!(paths[0].end(), Point::new(20000, 4500));
-    assert!((clay(&paths) / total(&strands) - 1.0).abs() < 1e-6);
-    let twice = paths[0].steps.iter().filter(|step| step.to == Point::new(40000, 55500)).count();
-    assert_eq!(twice, 1, "there and back");
-    let half = paths[0].steps.iter().find(|step| step.to == Point::new(40000, 55500)).expect("there");
-    assert!(half.flow < 0.5 && half.flow > 0.4);
+    assert!((clay(&paths) / total(&strands) - 1.0).abs() < 1e-3, "{} {}", clay(&paths), total(&strands));
+    // Two half beads, half a bead apart.
+    for lane in [40750, 39250] {
+        let ends = |step: &&crate::sheet::Step| step.to.x == lane && step.to.y == 55500;
+        let there = paths[0].steps.iter().find(ends).expect("a lane");
+        assert!(there.flow < 0.5 && there.flow > 0.4, "{}", there.flow);
+    }
 }
 
 #[test]
@@ -227,13 +229,13 @@ proptest! {
         for (before, after) in before.layers.iter().zip(&joined.layers) {
             let (old, new) = (clay_of(&before.lines, &mut old), clay_of(&after.lines, &mut new));
             // A rise may lay a bead or two more.
-            let most = if through { 2.0 * SPACING } else { old * 1e-3 };
+            let most = if through { 2.0 * SPACING } else { old * 2e-3 };
             prop_assert!((new - old).abs() <= most, "{} {}", new, old);
             let threads = spans(&after.lines).filter(|span| matches!(span, Span::Thread(_))).count();
             prop_assert_eq!(threads, 1);
             for line in &after.lines {
                 if let Some(step) = line.as_move() {
-                    let inside = |at: i32| (1499..=size * 1000 - 1499).contains(&at);
+                    let inside = |at: i32| (749..=size * 1000 - 749).contains(&at);
                     prop_assert!(inside(step.to.x) && inside(step.to.y));
                 }
             }

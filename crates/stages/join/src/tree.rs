@@ -5,7 +5,7 @@
 //!
 //! * A **rung** joins a closed strand to one that runs beside it. Both leave out as much as the two steps over are long,
 //!   so the four corners of a square of beads are only connected the other way, and the clay lies where it lay.
-//! * A **stem** goes to a strand and comes back the same way. What is gone over twice has half the flow each time; the
+//! * A **stem** goes to a strand and comes back the same way. What is gone over twice is two half beads side by side; the
 //!   clay of the way is taken from the strand.
 
 use crate::grid::{Grid, Near, Side};
@@ -50,8 +50,10 @@ pub struct Child {
 pub struct Tree {
     /// The visits; the first is the root's.
     pub visits: Vec<Visit>,
-    /// How far the root is walked on beyond its end, over what it laid first.
+    /// How far the root is walked on beyond its end, beside what it laid first.
     pub again: f64,
+    /// How far apart beads lie, in microns.
+    pub spacing: f64,
 }
 
 /// How far beside each other two strands may lie to be joined, in bead spacings: neighbours lie one apart, a little more
@@ -172,7 +174,7 @@ impl<'a> Weave<'a> {
                 }
             },
         };
-        let mut tree = Tree { visits: vec![root], again: 0.0 };
+        let mut tree = Tree { visits: vec![root], again: 0.0, spacing: self.spacing };
         self.grow(&mut tree, VecDeque::from([0]), seam);
         Some(tree)
     }
@@ -193,7 +195,7 @@ impl<'a> Weave<'a> {
             }
         }
         let Some((_, again, end, entry, forward)) = best else {
-            return Tree { visits: Vec::new(), again: 0.0 };
+            return Tree { visits: Vec::new(), again: 0.0, spacing: self.spacing };
         };
         let root = self.root(end.other, entry, forward);
         let whole = self.strands[tail].length();
@@ -202,7 +204,7 @@ impl<'a> Weave<'a> {
         let mut visit = self.root(tail, end.here, end.here == 0.0);
         visit.share = share;
         let flow = self.strands[tail].mean_flow() * share;
-        let mut tree = Tree { visits: vec![root, visit], again };
+        let mut tree = Tree { visits: vec![root, visit], again, spacing: self.spacing };
         let leave = self.strands[end.other].length() + again;
         tree.visits[0].adopt(Child { leave, resume: None, flow, visit: 1 });
         self.grow(&mut tree, VecDeque::from([0, 1]), seam);
