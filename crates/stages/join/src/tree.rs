@@ -308,7 +308,10 @@ impl<'a> Weave<'a> {
             let near = self.sides.nearest(at, |other| self.is_free_wall(other as usize));
             let Some(near) = near.filter(|near| near.distance <= reach) else { continue };
             beside.push((leave, near));
-            self.rung(tree, parent, leave, near, EVEN, queue);
+            // A step over should not cross the second lane of what is laid twice.
+            if parent != 0 || leave >= tree.again {
+                self.rung(tree, parent, leave, near, EVEN, queue);
+            }
             if self.closed_left == 0 {
                 return;
             }
