@@ -115,7 +115,7 @@ impl Join {
             let mut layer: Vec<Vec<Path>> = Vec::with_capacity(sheet.islands.len());
             for island in &sheet.islands {
                 let paths = self.join(island, *spacing, rise, here.unwrap_or(self.seam_place));
-                here = paths.last().map(Path::end).or(here);
+                here = paths.last().map(Path::closed_end).or(here);
                 layer.push(paths);
             }
             if let (true, Some(before), Some(first)) =
@@ -143,7 +143,7 @@ impl Join {
         // The greatest is first, at the seam; the others follow from its end.
         if paths.len() > 2 {
             let boxes: Vec<(Point, Point)> = paths[1..].iter().map(|path| (path.start, path.start)).collect();
-            let order = order::order(paths[0].end(), &boxes);
+            let order = order::order(paths[0].closed_end(), &boxes);
             let mut others: Vec<Option<Path>> = paths.drain(1..).map(Some).collect();
             paths.extend(order.into_iter().filter_map(|index| others[index].take()));
         }

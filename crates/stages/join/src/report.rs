@@ -54,7 +54,7 @@ impl Report {
                     };
                     stops.push(Stop { layer: last_layer, at, length, why });
                 }
-                before = Some((layer, island, path.closing.map_or(path.end(), |closing| closing.to)));
+                before = Some((layer, island, path.closed_end()));
             }
         }
         Self { stops, spacing }

@@ -54,9 +54,14 @@ pub struct Path {
 }
 
 impl Path {
-    /// Where it ends.
+    /// Where its steps end.
     pub fn end(&self) -> Point {
         self.steps.last().map_or(self.start, |step| step.to)
+    }
+
+    /// Where it ends with its closing: what follows begins near there, above or beside.
+    pub fn closed_end(&self) -> Point {
+        self.closing.map_or(self.end(), |closing| closing.to)
     }
 }
 
