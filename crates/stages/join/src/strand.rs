@@ -82,7 +82,9 @@ impl Strand {
         let mut round = if self.closed { (from / whole).floor() * whole } else { 0.0 };
         while here < to {
             let end = (round + self.starts[side + 1]).max(here).min(to);
-            piece(Piece { from: here, to: end, flow: self.flows[side] });
+            let whole_side = end == round + self.starts[side + 1];
+            let place = if whole_side { self.corner(side + 1) } else { self.at(end) };
+            piece(Piece { from: here, to: end, end: place, flow: self.flows[side] });
             here = end;
             side += 1;
             if side == self.flows.len() {
@@ -117,6 +119,8 @@ pub struct Piece {
     pub from: f64,
     /// Where along the strand it ends.
     pub to: f64,
+    /// The place where it ends.
+    pub end: Point,
     /// The share of a nominal section.
     pub flow: f64,
 }

@@ -172,7 +172,7 @@ impl Walker<'_> {
         let mut points = vec![strand.at(low)];
         let mut flows = Vec::new();
         strand.walk(low, high, |piece| {
-            points.push(strand.at(piece.to));
+            points.push(piece.end);
             flows.push(piece.flow * share);
         });
         if !forward {
