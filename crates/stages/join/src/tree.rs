@@ -1,0 +1,478 @@
+//! Which strands of an island are joined, and where.
+//!
+//! Strands that lie beside each other become a tree: each is visited from another, at a place where the two are a bead
+//! apart. A thread that goes round the tree lays everything once and never stops. There are two kinds of joint:
+//!
+//! * A **rung** joins a closed strand to one that runs beside it. Both leave out as much as the two steps over are long,
+//!   so the four corners of a square of beads are only connected the other way, and the clay lies where it lay.
+//! * A **stem** goes to a strand and comes back the same way. What is gone over twice is two half beads side by side; the
+//!   clay of the way is taken from the strand.
+
+use crate::grid::{Grid, Near, Side};
+use crate::strand::Strand;
+use skein::{Feature, Point, Ring};
+use std::collections::VecDeque;
+
+/// How a strand is visited.
+#[derive(Debug)]
+pub struct Visit {
+    /// Which strand.
+    pub strand: usize,
+    /// Where on it the walk begins, in microns.
+    pub entry: f64,
+    /// Whether it is walked in its own direction.
+    pub forward: bool,
+    /// How far it is walked, in microns.
+    pub length: f64,
+    /// Whether it is walked back again.
+    pub returns: bool,
+    /// What is made of its flow.
+    pub share: f64,
+    /// The visits that begin on the walk, from its start to its end.
+    pub children: Vec<Child>,
+}
+
+/// A visit that begins on another.
+#[derive(Debug)]
+pub struct Child {
+    /// How far along the walk it begins.
+    pub leave: f64,
+    /// How far along the walk the thread comes back; nothing when it stays away.
+    pub resume: Option<f64>,
+    /// The flow on the way over.
+    pub flow: f64,
+    /// The visit.
+    pub visit: usize,
+}
+
+/// How the strands of one connected part of an island are visited.
+#[derive(Debug)]
+pub struct Tree {
+    /// The visits; the first is the root's.
+    pub visits: Vec<Visit>,
+    /// How far the root is walked on beyond its end, beside what it laid first.
+    pub again: f64,
+    /// How far apart beads lie, in microns.
+    pub spacing: f64,
+}
+
+/// How far beside each other two strands may lie to be joined, in bead spacings: neighbours lie one apart, a little more
+/// where the part is a little wider.
+const BESIDE: f64 = 1.4;
+/// How far an open end may be from what it is joined to, in bead spacings: a row of infill may end almost a spacing before
+/// the wall's next neighbour.
+pub const REACH: f64 = 2.0;
+
+/// An island that is being joined.
+pub struct Weave<'a> {
+    strands: &'a [Strand],
+    sides: Grid,
+    outlines: Grid,
+    spacing: f64,
+    visited: Vec<bool>,
+    /// What each strand's ends are near to, and which ends are near to each strand.
+    ends: Vec<Vec<EndContact>>,
+    closed_left: usize,
+}
+
+/// An end of an open strand beside another strand.
+#[derive(Clone, Copy, Debug)]
+struct EndContact {
+    /// How far along this strand.
+    here: f64,
+    /// The other strand.
+    other: usize,
+    /// How far along it.
+    there: f64,
+}
+
+impl<'a> Weave<'a> {
+    /// Finds what lies beside what; the spacing of the beads is in microns.
+    pub fn new(strands: &'a [Strand], outlines: &[Ring], spacing: f64) -> Self {
+        let reach = REACH * spacing;
+        let sides = Grid::new(
+            strands.iter().enumerate().flat_map(|(owner, strand)| {
+                strand.sides().map(move |(start, from, to)| Side { owner: owner as u32, start, from, to })
+            }),
+            reach,
+        );
+        let outlines = Grid::new(
+            outlines.iter().enumerate().flat_map(|(owner, ring)| {
+                ring.segments().map(move |(from, to)| Side { owner: owner as u32, start: 0.0, from, to })
+            }),
+            reach,
+        );
+        let closed_left = strands.iter().filter(|strand| strand.closed).count();
+        let visited = vec![false; strands.len()];
+        let ends = vec![Vec::new(); strands.len()];
+        let mut weave = Self { strands, sides, outlines, spacing, visited, ends, closed_left };
+        weave.find_ends();
+        weave
+    }
+
+    /// Of every end of an open strand the nearest strand, the nearest wall and the nearest wall that is not seen: where
+    /// several open strands meet, the nearest is often another that leads nowhere.
+    fn find_ends(&mut self) {
+        for (index, strand) in self.strands.iter().enumerate().filter(|(_, strand)| !strand.closed) {
+            for here in [0.0, strand.length()] {
+                let near = [
+                    self.beside_end(index, here, |_| true),
+                    self.beside_end(index, here, |other| other.closed),
+                    self.beside_end(index, here, |other| other.closed && !is_edge(other)),
+                ];
+                for (place, found) in near.iter().enumerate() {
+                    let (Some(found), false) = (found, near[..place].contains(found)) else { continue };
+                    let (other, there) = (found.owner as usize, found.along);
+                    self.ends[index].push(EndContact { here, other, there });
+                    self.ends[other].push(EndContact { here: there, other: index, there: here });
+                }
+            }
+        }
+    }
+
+    /// What an end of an open strand is nearest to, if the way there is inside.
+    fn beside_end(&self, index: usize, here: f64, wanted: impl Fn(&Strand) -> bool) -> Option<Near> {
+        let at = self.strands[index].at(here);
+        let wanted = |other: u32| other as usize != index && wanted(&self.strands[other as usize]);
+        let near = self.sides.nearest(at, wanted)?;
+        let there = self.strands[near.owner as usize].at(near.along);
+        (!self.outlines.is_crossed(at, there)).then_some(near)
+    }
+
+    /// The trees of the island: the first begins near a place, each further one near where the tree before began.
+    pub fn trees(mut self, seam: Point) -> Vec<Tree> {
+        let mut trees = Vec::new();
+        while let Some(tree) = self.tree(seam) {
+            trees.push(tree);
+        }
+        trees
+    }
+
+    fn tree(&mut self, seam: Point) -> Option<Tree> {
+        let longest = |one: &usize, other: &usize| {
+            let length = |index: usize| self.strands[index].length();
+            length(*one).total_cmp(&length(*other)).then(other.cmp(one))
+        };
+        let open =
+            || (0..self.strands.len()).filter(|index| !self.visited[*index] && !self.strands[*index].closed);
+        // The longest open strand is laid last and once; it would cost most to go back over.
+        let on_wall = |index: &usize| self.ends[*index].iter().any(|end| self.is_free_wall(end.other));
+        let tail = open().filter(on_wall).max_by(longest);
+        let root = match tail {
+            Some(tail) => return Some(self.with_tail(tail, seam)),
+            None => match self.nearest_closed(seam) {
+                Some(wall) => {
+                    let entry = self.nearest_on(wall, seam);
+                    self.root(wall, entry, true)
+                }
+                None => {
+                    let strand = open().max_by(longest)?;
+                    let ends = [0.0, self.strands[strand].length()];
+                    let gap = |along: f64| seam.distance2(self.strands[strand].at(along));
+                    let forward = gap(ends[0]) <= gap(ends[1]);
+                    self.root(strand, if forward { ends[0] } else { ends[1] }, forward)
+                }
+            },
+        };
+        let mut tree = Tree { visits: vec![root], again: 0.0, spacing: self.spacing };
+        self.grow(&mut tree, VecDeque::from([0]), seam);
+        Some(tree)
+    }
+
+    /// A tree that begins on a wall and ends with an open strand. From its seam the wall is walked all the way round, and
+    /// on to where the open strand begins.
+    fn with_tail(&mut self, tail: usize, seam: Point) -> Tree {
+        // Not on the wall that is seen, if there is another; then with the shortest way on it.
+        let mut best: Option<(bool, f64, EndContact, f64, bool)> = None;
+        for end in self.ends[tail].iter().filter(|end| self.is_free_wall(end.other)) {
+            let entry = self.nearest_on(end.other, seam);
+            let ahead = self.strands[end.other].wrapped(end.there - entry);
+            let behind = self.strands[end.other].length() - ahead;
+            let (again, forward) = if ahead <= behind { (ahead, true) } else { (behind, false) };
+            let seen = is_edge(&self.strands[end.other]);
+            if best.is_none_or(|(edge, least, ..)| (seen, again) < (edge, least)) {
+                best = Some((seen, again, *end, entry, forward));
+            }
+        }
+        let Some((_, again, end, entry, forward)) = best else {
+            return Tree { visits: Vec::new(), again: 0.0, spacing: self.spacing };
+        };
+        let root = self.root(end.other, entry, forward);
+        let whole = self.strands[tail].length();
+        let gap = self.strands[tail].at(end.here).distance(self.strands[end.other].at(end.there));
+        let share = whole / (whole + gap);
+        let mut visit = self.root(tail, end.here, end.here == 0.0);
+        visit.share = share;
+        let flow = self.strands[tail].mean_flow() * share;
+        let mut tree = Tree { visits: vec![root, visit], again, spacing: self.spacing };
+        let leave = self.strands[end.other].length() + again;
+        tree.visits[0].adopt(Child { leave, resume: None, flow, visit: 1 });
+        self.grow(&mut tree, VecDeque::from([0, 1]), seam);
+        tree
+    }
+
+    fn root(&mut self, strand: usize, entry: f64, forward: bool) -> Visit {
+        self.take(strand);
+        let length = self.strands[strand].length();
+        Visit { strand, entry, forward, length, returns: false, share: 1.0, children: Vec::new() }
+    }
+
+    fn take(&mut self, strand: usize) {
+        self.visited[strand] = true;
+        self.closed_left -= usize::from(self.strands[strand].closed);
+    }
+
+    fn is_free_wall(&self, strand: usize) -> bool {
+        self.strands[strand].closed && !self.visited[strand]
+    }
+
+    fn nearest_closed(&self, seam: Point) -> Option<usize> {
+        let gap = |index: usize| {
+            self.strands[index].points().iter().map(|point| seam.distance2(*point)).min().unwrap_or(i64::MAX)
+        };
+        (0..self.strands.len()).filter(|index| self.is_free_wall(*index)).min_by_key(|index| gap(*index))
+    }
+
+    fn nearest_on(&self, strand: usize, seam: Point) -> f64 {
+        let sides = self.strands[strand].sides();
+        let near = sides.map(|(start, from, to)| {
+            let (share, distance) = Side { owner: 0, start, from, to }.nearest(seam);
+            (distance, start + share * from.distance(to))
+        });
+        near.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(0.0, |(_, along)| along)
+    }
+
+    /// Adds everything that can be reached, strand by strand.
+    fn grow(&mut self, tree: &mut Tree, mut queue: VecDeque<usize>, seam: Point) {
+        while let Some(visit) = queue.pop_front() {
+            self.add_walls(tree, visit, seam, &mut queue);
+            self.add_ends(tree, visit, &mut queue);
+        }
+    }
+
+    /// Open ends beside the strand, and what is beside its own ends.
+    fn add_ends(&mut self, tree: &mut Tree, parent: usize, queue: &mut VecDeque<usize>) {
+        let contacts = self.ends[tree.visits[parent].strand].clone();
+        for contact in contacts {
+            if self.visited[contact.other] {
+                continue;
+            }
+            let visit = &tree.visits[parent];
+            let leave = visit.free_near(self.along_walk(visit, contact.here));
+            let (from, to) = (self.place(visit, leave), self.strands[contact.other].at(contact.there));
+            if !self.outlines.is_crossed(from, to) {
+                self.stem(tree, parent, leave, contact.other, contact.there, queue);
+            }
+        }
+    }
+
+    /// Goes to a strand and comes back.
+    fn stem(
+        &mut self,
+        tree: &mut Tree,
+        parent: usize,
+        leave: f64,
+        strand: usize,
+        entry: f64,
+        queue: &mut VecDeque<usize>,
+    ) {
+        let gap = self.place(&tree.visits[parent], leave).distance(self.strands[strand].at(entry));
+        let whole = self.strands[strand].length();
+        let open = !self.strands[strand].closed;
+        let taken = whole / (whole + gap);
+        let forward = !open || entry < whole / 2.0;
+        let mut visit = self.root(strand, entry, forward);
+        visit.returns = open;
+        visit.share = if open { taken / 2.0 } else { taken };
+        let flow = self.strands[strand].mean_flow() * taken / 2.0;
+        let index = tree.visits.len();
+        tree.visits.push(visit);
+        tree.visits[parent].adopt(Child { leave, resume: Some(leave), flow, visit: index });
+        queue.push_back(index);
+    }
+
+    /// Closed strands beside the strand, looked for from the place nearest to the seam outwards.
+    fn add_walls(&mut self, tree: &mut Tree, parent: usize, seam: Point, queue: &mut VecDeque<usize>) {
+        if self.closed_left == 0 {
+            return;
+        }
+        let reach = BESIDE * self.spacing;
+        let length = tree.visits[parent].length;
+        let middle = {
+            let visit = &tree.visits[parent];
+            self.along_walk(visit, self.nearest_on(visit.strand, seam))
+        };
+        let mut beside: Vec<(f64, Near)> = Vec::new();
+        for leave in outwards(middle, length, self.spacing / 2.0) {
+            let at = self.place(&tree.visits[parent], leave);
+            let near = self.sides.nearest(at, |other| self.is_free_wall(other as usize));
+            let Some(near) = near.filter(|near| near.distance <= reach) else { continue };
+            beside.push((leave, near));
+            // A step over should not cross the second lane of what is laid twice.
+            if parent != 0 || leave >= tree.again {
+                self.rung(tree, parent, leave, near, EVEN, queue);
+            }
+            if self.closed_left == 0 {
+                return;
+            }
+        }
+        for (leave, near) in &beside {
+            self.rung(tree, parent, *leave, *near, UNEVEN, queue);
+        }
+        // What is too small or too crooked for a rung.
+        for (leave, near) in beside {
+            let strand = near.owner as usize;
+            let leave = tree.visits[parent].free_near(leave);
+            let at = self.place(&tree.visits[parent], leave);
+            let inside = !self.outlines.is_crossed(at, self.strands[strand].at(near.along));
+            if !self.visited[strand] && inside {
+                self.stem(tree, parent, leave, strand, near.along, queue);
+            }
+        }
+    }
+
+    /// Joins a closed strand to one that runs beside it for a bead's width, if that is so here.
+    fn rung(
+        &mut self,
+        tree: &mut Tree,
+        parent: usize,
+        leave: f64,
+        near: Near,
+        tolerance: f64,
+        queue: &mut VecDeque<usize>,
+    ) {
+        if self.visited[near.owner as usize] {
+            return;
+        }
+        let visit = &tree.visits[parent];
+        let child = &self.strands[near.owner as usize];
+        let resume = leave + self.spacing;
+        if resume > visit.length || !visit.is_free(leave, resume) {
+            return;
+        }
+        let back = self.place(visit, resume);
+        let Some(other) = self.sides.nearest(back, |owner| owner == near.owner) else { return };
+        // The short way between the two places is left out, the long way is walked.
+        let whole = child.length();
+        let ahead = child.wrapped(other.along - near.along);
+        let (short, forward) = if ahead <= whole / 2.0 { (ahead, false) } else { (whole - ahead, true) };
+        let even = |length: f64| (length / self.spacing - 1.0).abs() <= tolerance;
+        let (from, to) = (self.place(visit, leave), back);
+        let (enter, exit) = (child.at(near.along), child.at(other.along));
+        if !(even(short) && even(near.distance) && even(other.distance))
+            || whole < 3.0 * self.spacing
+            || self.outlines.is_crossed(from, enter)
+            || self.outlines.is_crossed(exit, to)
+        {
+            return;
+        }
+        let first = if forward { other.along } else { near.along };
+        // Of what is walked twice only the half of the first time is left out.
+        let again = if parent == 0 { tree.again } else { 0.0 };
+        let (once, twice) =
+            (self.laid(visit, leave.max(again), resume), self.laid(visit, leave, resume.min(again)));
+        let left_out = child.laid(first, first + short) + (once + twice / 2.0) * visit.share;
+        let flow = left_out / (from.distance(enter) + exit.distance(to)).max(1.0);
+        if (flow - 1.0).abs() > MOST {
+            return;
+        }
+        let strand = near.owner as usize;
+        let mut visit = self.root(strand, near.along, forward);
+        visit.length = whole - short;
+        let index = tree.visits.len();
+        tree.visits.push(visit);
+        tree.visits[parent].adopt(Child { leave, resume: Some(resume), flow, visit: index });
+        queue.push_back(index);
+    }
+
+    /// Length times flow of a part of a walk.
+    fn laid(&self, visit: &Visit, from: f64, to: f64) -> f64 {
+        if to <= from {
+            return 0.0;
+        }
+        let (from, to) = visit.range(from, to);
+        self.strands[visit.strand].laid(from, to)
+    }
+
+    fn place(&self, visit: &Visit, along: f64) -> Point {
+        self.strands[visit.strand].at(visit.on_strand(along))
+    }
+
+    /// How far along a walk a place of its strand is.
+    fn along_walk(&self, visit: &Visit, on_strand: f64) -> f64 {
+        let way = if visit.forward { on_strand - visit.entry } else { visit.entry - on_strand };
+        self.strands[visit.strand].wrapped(way)
+    }
+}
+
+/// The sides of the square that a rung makes of two strands are as long as beads are apart, or so much longer or shorter.
+const EVEN: f64 = 0.15;
+/// The same where no place is better.
+const UNEVEN: f64 = 0.5;
+/// The flow of a step over is within so much of a bead's.
+const MOST: f64 = 0.6;
+
+impl Visit {
+    /// The place on the strand of a place along the walk, perhaps rounds away.
+    pub fn on_strand(&self, along: f64) -> f64 {
+        if self.forward { self.entry + along } else { self.entry - along }
+    }
+
+    /// The part of the strand that is walked between two places, from its lower end to its upper.
+    pub fn range(&self, from: f64, to: f64) -> (f64, f64) {
+        let (one, other) = (self.on_strand(from), self.on_strand(to));
+        (one.min(other), one.max(other))
+    }
+
+    /// Whether nothing else begins or is left out on a part of the walk.
+    fn is_free(&self, from: f64, to: f64) -> bool {
+        let after = self.children.partition_point(|child| child.leave < to);
+        let before = after.checked_sub(1).map(|index| &self.children[index]);
+        to <= self.length && before.is_none_or(|child| child.end() <= from)
+    }
+
+    /// The place nearest to a place along the walk where the walk really goes.
+    fn free_near(&self, along: f64) -> f64 {
+        let along = along.min(self.length);
+        let after = self.children.partition_point(|child| child.leave < along);
+        match after.checked_sub(1).map(|index| &self.children[index]) {
+            Some(child) if child.end() > along => {
+                if along - child.leave <= child.end() - along {
+                    child.leave
+                } else {
+                    child.end()
+                }
+            }
+            _ => along,
+        }
+    }
+
+    /// Puts a child behind those that begin earlier.
+    fn adopt(&mut self, child: Child) {
+        let place = self.children.partition_point(|other| other.leave <= child.leave);
+        self.children.insert(place, child);
+    }
+}
+
+impl Child {
+    /// Where on the walk it is over.
+    fn end(&self) -> f64 {
+        self.resume.unwrap_or(self.leave)
+    }
+}
+
+/// Whether a strand is seen from outside.
+fn is_edge(strand: &Strand) -> bool {
+    matches!(strand.feature, Feature::Edge(_))
+}
+
+/// Places along a length from a middle outwards, a step apart.
+fn outwards(middle: f64, length: f64, step: f64) -> impl Iterator<Item = f64> {
+    let count = (length / step).ceil() as i64;
+    (0..=2 * count)
+        .map(move |index| {
+            let side = if index % 2 == 0 { 1.0 } else { -1.0 };
+            middle + side * ((index + 1) / 2) as f64 * step
+        })
+        .filter(move |place| (0.0..=length).contains(place))
+}
