@@ -6,8 +6,8 @@
 //! once. Crossings are found with boxes around runs of the curve, so the cost grows with the number of points and of
 //! crossings.
 //!
-//! Coordinates inside are floats of microns with the rounding errors of floats. Every arc of a loop that is kept is
-//! looked at; when two disagree, curves touch within that error and the exact integer kernel of
+//! Coordinates inside are floats of microns with the rounding errors of floats. Every arc of a loop is looked at, whether
+//! the loop is kept or not; when two disagree, curves touch within that error and the exact integer kernel of
 //! [`boolean`](super::boolean) takes over. The result is rounded to whole microns once.
 
 use super::{Point, Ring, boolean};
@@ -420,27 +420,24 @@ impl Curves {
         &self.rings[self.rings.partition_point(|tree| tree.end <= side)]
     }
 
-    /// Whether the winding number is 1 on the left of a loop and 0 on its right; `None` when its arcs disagree.
+    /// Whether a loop has what is covered on its left and what is not on its right; `None` when its arcs disagree, which
+    /// they do where sides lie on each other and their crossings are found in no order that fits together.
     fn is_outline(&self, circle: &Circle) -> Option<bool> {
+        let mut outline = None;
         // Between two crossings the winding number cannot change, so one look at each arc is enough.
-        let mut seen = false;
         for (index, &start) in circle.arcs.iter().enumerate() {
             let end = circle.arcs.get(index + 1).copied().unwrap_or(circle.points.len());
             let Some((place, aside)) = place_beside(circle, start..end) else { continue };
             let left = self.winding(place.plus(aside, 1.0));
-            if left <= 0 {
-                // Not covered, whatever lies on the other side.
-                return if seen { None } else { Some(false) };
-            }
-            if self.winding(place.plus(aside, -1.0)) != left - 1 {
+            // What is not covered on its left is no outline, whatever lies on its right.
+            let right = if left > 0 { self.winding(place.plus(aside, -1.0)) } else { left };
+            let here = left > 0 && right <= 0;
+            if here && (left, right) != (1, 0) || outline.is_some_and(|before| before != here) {
                 return None;
             }
-            if left > 1 {
-                return if seen { None } else { Some(false) };
-            }
-            seen = true;
+            outline = Some(here);
         }
-        Some(seen)
+        Some(outline.unwrap_or(false))
     }
 
     /// How far along a ray, in lengths of `toward`, the first curve is met, if nearer than `reach`.

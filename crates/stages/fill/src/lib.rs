@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod infill;
+mod map;
 mod order;
 mod pattern;
 mod rings;

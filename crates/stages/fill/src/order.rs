@@ -28,9 +28,11 @@ fn lower_left(outlines: &[Ring]) -> Option<Point> {
     corners.min_by_key(|corner| (i64::from(corner.x) + i64::from(corner.y), corner.y))
 }
 
-fn layer(mut islands: Vec<Island>, fill: &Fill, sequence: ThreadSequence, here: &mut Point) -> Vec<Island> {
+/// Nearest islands first; those on which nothing is laid last, for their outlines are part of the layer all the same.
+fn layer(islands: Vec<Island>, fill: &Fill, sequence: ThreadSequence, here: &mut Point) -> Vec<Island> {
     let mut ordered = Vec::with_capacity(islands.len());
-    islands.retain(|island| !island.strands.is_empty());
+    let (islands, bare): (Vec<Island>, Vec<Island>) =
+        islands.into_iter().partition(|island| !island.strands.is_empty());
     let mut left: Vec<(Island, (Point, Point))> = islands
         .into_iter()
         .map(|island| {
@@ -44,6 +46,7 @@ fn layer(mut islands: Vec<Island>, fill: &Fill, sequence: ThreadSequence, here: 
         let (island, _) = left.remove(nearest);
         ordered.push(order_island(island, fill, sequence, here));
     }
+    ordered.extend(bare.into_iter().filter(|island| !island.outlines.is_empty()));
     ordered
 }
 

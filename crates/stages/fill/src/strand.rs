@@ -1,5 +1,6 @@
 //! One unbroken bead and the island it lies on.
 
+use crate::map::Map;
 use shape::plane::MiddleLine;
 use skein::{Bead, Feature, Micron, Point, Ratio, Ring, Side};
 
@@ -53,35 +54,22 @@ pub fn spacing(bead: &Bead) -> f64 {
 
 /// Puts every strand on the island it lies on.
 pub fn sort_into_islands(outlines: &[Ring], strands: Vec<Strand>) -> Vec<Island> {
-    let outsides: Vec<usize> =
-        (0..outlines.len()).filter(|index| Side::of(&outlines[*index]) == Side::Outer).collect();
+    let (outsides, holes): (Vec<usize>, Vec<usize>) =
+        (0..outlines.len()).partition(|index| Side::of(&outlines[*index]) == Side::Outer);
     let mut islands: Vec<Island> =
         outsides.iter().map(|index| Island { outlines: vec![*index], strands: Vec::new() }).collect();
     if islands.is_empty() {
-        islands.push(Island::default());
+        islands.push(Island { outlines: holes, strands });
+        return islands;
     }
-    let areas: Vec<i128> = outsides.iter().map(|index| outlines[*index].area2()).collect();
-    let boxes: Vec<(Point, Point)> =
-        outsides.iter().map(|index| outlines[*index].bounds().unwrap_or_default()).collect();
-    // The smallest outside that holds the point: islands may lie in holes of others.
-    let home = |point: Option<&Point>| match (outsides.len(), point) {
-        (0 | 1, _) | (_, None) => 0,
-        (_, Some(point)) => (0..outsides.len())
-            .filter(|island| {
-                let (low, high) = boxes[*island];
-                let near = (low.x..=high.x).contains(&point.x) && (low.y..=high.y).contains(&point.y);
-                near && outlines[outsides[*island]].contains(*point)
-            })
-            .min_by_key(|island| areas[*island])
-            .unwrap_or(0),
-    };
-    for (index, outline) in outlines.iter().enumerate() {
-        if Side::of(outline) == Side::Inner {
-            islands[home(outline.0.first())].outlines.push(index);
-        }
+    let map = Map::new(outlines, &outsides);
+    for hole in holes {
+        let home = map.home(&outlines[hole].0);
+        islands[home].outlines.push(hole);
     }
     for strand in strands {
-        islands[home(strand.points.first())].strands.push(strand);
+        let home = map.home(&strand.points);
+        islands[home].strands.push(strand);
     }
     islands
 }

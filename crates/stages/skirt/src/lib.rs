@@ -189,7 +189,7 @@ impl Skirt {
                 return Ok(levels);
             }
             let first = self.gap.f64() * site.bead.width.um() + reach;
-            rings = grown(rings, if level == 0 { first } else { site.spacing() }, 2.0 * reach);
+            rings = outsides(offset(&rings, if level == 0 { first } else { site.spacing() }));
             if !fits(&rings, &site.bead, facts) {
                 break;
             }
@@ -272,17 +272,6 @@ impl Site {
             lines.push(Line::Flow(self.nozzle.flow));
         }
     }
-}
-
-/// The outer rings around a region at a distance, reached in steps of a bead at most: bays that close on the way are gone
-/// for the next step, which a single wide one would have to untangle.
-fn grown(mut rings: Vec<Ring>, distance: f64, step: f64) -> Vec<Ring> {
-    let mut left = distance;
-    while left > 0.0 {
-        rings = outsides(offset(&rings, left.min(step)));
-        left -= step;
-    }
-    rings
 }
 
 /// Whether beads along rings lie on the bed; where the header does not know it, within what a document can hold.
