@@ -6,6 +6,8 @@
 //! * [`cli`]: the command as scripts and people meet it;
 //! * [`edit`]: the page of `clayforge edit` is its test;
 //! * [`import`]: parts of every format through the command;
+//! * [`outage`]: the command when the machine fails it;
+//! * [`fuzzing`]: a short run of every fuzz target;
 //! * [`torture`]: parts as potters find them, each in a process of its own;
 //! * [`tidy`]: the layout of the workspace;
 //! * [`totals`]: what lies on the test meshes behind fill.
@@ -13,8 +15,10 @@
 mod cases;
 mod cli;
 mod edit;
+mod fuzzing;
 mod import;
 mod law;
+mod outage;
 mod parts;
 mod support;
 mod tidy;

@@ -83,7 +83,7 @@ impl Room {
         self
     }
 
-    fn command<S: AsRef<OsStr>>(&self, words: &[S]) -> Command {
+    pub fn command<S: AsRef<OsStr>>(&self, words: &[S]) -> Command {
         let mut command = Command::new(program());
         command
             .args(words)

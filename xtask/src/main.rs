@@ -1,9 +1,11 @@
-//! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage.
+//! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage, figures
+//! against other slicers.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+mod compare;
 mod examples;
 mod new_stage;
 mod pictures;
@@ -18,7 +20,9 @@ const USAGE: &str = "\
 usage: cargo xtask examples [--dir DIR]                    the parts in examples/
        cargo xtask examples --vase TRIANGLES --out FILE    one vase of any fineness
        cargo xtask pictures                                docs/vase.svg and the pictures of the stage pages
-       cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it";
+       cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it
+       cargo xtask compare [--clayforge BINARY] [--runs N] [--out FILE] [PART.stl]...
+                                                           time and memory against the slicers that are installed";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -26,6 +30,7 @@ fn main() -> ExitCode {
         Some((name, args)) if name == "examples" => examples::run(args),
         Some((name, args)) if name == "pictures" => pictures::run(args),
         Some((name, args)) if name == "new-stage" => new_stage::run(args),
+        Some((name, args)) if name == "compare" => compare::run(args),
         _ => Err(USAGE.to_string()),
     };
     match result {
