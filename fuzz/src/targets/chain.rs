@@ -64,6 +64,8 @@ const CHOICES: usize = 4;
 const SOLID: usize = 8;
 
 type Triangle = [[f64; 3]; 3];
+/// A stage and the text behind it.
+type Behind = (&'static str, Vec<u8>);
 
 fn run(bytes: &[u8]) -> String {
     let (choices, rest) = bytes.split_at(CHOICES.min(bytes.len()));
@@ -96,7 +98,7 @@ fn run(bytes: &[u8]) -> String {
 }
 
 /// The text behind every stage, and what stopped the chain.
-fn in_memory(part: &[u8], profile: &Profile) -> (Vec<(&'static str, Vec<u8>)>, Result<(), Error>) {
+fn in_memory(part: &[u8], profile: &Profile) -> (Vec<Behind>, Result<(), Error>) {
     let (mut texts, mut gcode) = (Vec::new(), Vec::new());
     let mut watch = |event: Event<'_>| {
         if let Event::Done { name, number: 1.., document, .. } = event {

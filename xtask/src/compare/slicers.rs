@@ -22,6 +22,9 @@ pub const SETTINGS: [Setting; 2] = [
     Setting { name: "fine", layer: 0.2, bead: 0.45, nozzle: 0.4, filament: 1.75 },
 ];
 
+/// The arguments for a setting, the part, the output and the room.
+pub type Words = fn(&Setting, &Path, &Path, &Path) -> Result<Vec<String>, String>;
+
 /// A program that slices.
 pub struct Slicer {
     /// As it stands in the table.
@@ -29,14 +32,14 @@ pub struct Slicer {
     /// Where it is.
     pub program: PathBuf,
     /// How it is asked to slice a part; what it must be told in a file goes into the room.
-    pub words: fn(&Setting, part: &Path, out: &Path, room: &Path) -> Result<Vec<String>, String>,
+    pub words: Words,
 }
 
 /// Ours, and those of the others that are there.
 pub fn installed(ours: PathBuf) -> Vec<Slicer> {
     let mut slicers = vec![Slicer { name: "clayforge", program: ours, words: clayforge }];
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let others: [(_, _, fn(&Setting, &Path, &Path, &Path) -> _); 3] = [
+    let others: [(_, _, Words); 3] = [
         ("CuraEngine", "CuraEngine", cura),
         ("PrusaSlicer", "prusa-slicer", prusa),
         ("Slic3r", "slic3r", slic3r),
