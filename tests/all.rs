@@ -7,6 +7,8 @@
 //! * [`edit`]: the page of `clayforge edit` is its test;
 //! * [`emulate`]: what a machine makes of finished files, through the command;
 //! * [`import`]: parts of every format through the command;
+//! * [`outage`]: the command when the machine fails it;
+//! * [`fuzzing`]: a short run of every fuzz target;
 //! * [`torture`]: parts as potters find them, each in a process of its own;
 //! * [`tidy`]: the layout of the workspace;
 //! * [`totals`]: what lies on the test meshes behind fill.
@@ -15,8 +17,10 @@ mod cases;
 mod cli;
 mod edit;
 mod emulate;
+mod fuzzing;
 mod import;
 mod law;
+mod outage;
 mod parts;
 mod support;
 mod tidy;

@@ -83,7 +83,7 @@ impl Room {
         self
     }
 
-    fn command<S: AsRef<OsStr>>(&self, words: &[S]) -> Command {
+    pub fn command<S: AsRef<OsStr>>(&self, words: &[S]) -> Command {
         let mut command = Command::new(program());
         command
             .args(words)
@@ -762,7 +762,7 @@ fn the_list_of_stages_is_the_table() {
     let list: Json = serde_json::from_slice(&room.run(&["stages", "--json"]).done().out).expect("JSON");
     let list = list.as_array().expect("a list");
     let names: Vec<&str> = list.iter().filter_map(|stage| stage["name"].as_str()).collect();
-    assert_eq!(names, clayforge::STAGES.iter().map(|entry| entry.name).collect::<Vec<_>>());
+    assert_eq!(names, STAGES.iter().map(|entry| entry.name).collect::<Vec<_>>());
     assert!(list.iter().all(|stage| stage["about"].as_str().is_some_and(|about| about.len() > 10)));
     let text = room.run(&["stages"]).done().out();
     assert!(names.iter().all(|name| text.lines().any(|line| line.starts_with(name))), "{text}");
@@ -776,7 +776,7 @@ fn a_setting_is_explained_with_its_default_and_bounds() {
         text.contains("fill.walls") && text.contains("default 2") && text.contains("0 to 1000"),
         "{text}"
     );
-    for entry in clayforge::STAGES {
+    for entry in STAGES {
         let page = room.run(&["explain", entry.name]).done().out();
         assert!(
             page.contains(&format!("# {}", entry.name)) && page.contains("All settings"),

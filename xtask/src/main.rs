@@ -1,9 +1,11 @@
-//! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage.
+//! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage, figures
+//! against other slicers.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
+mod compare;
 mod examples;
 mod gallery;
 mod new_stage;
@@ -20,7 +22,9 @@ usage: cargo xtask examples [--dir DIR]                    the parts in examples
        cargo xtask examples --vase TRIANGLES --out FILE    one vase of any fineness
        cargo xtask pictures                                docs/vase.svg and the pictures of the stage pages
        cargo xtask gallery                                 docs/gallery.md and its pictures
-       cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it";
+       cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it
+       cargo xtask compare [--clayforge BINARY] [--runs N] [--out FILE] [PART.stl]...
+                                                           time and memory against the slicers that are installed";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -29,6 +33,7 @@ fn main() -> ExitCode {
         Some((name, args)) if name == "pictures" => pictures::run(args),
         Some((name, _)) if name == "gallery" => gallery::run(),
         Some((name, args)) if name == "new-stage" => new_stage::run(args),
+        Some((name, args)) if name == "compare" => compare::run(args),
         _ => Err(USAGE.to_string()),
     };
     match result {

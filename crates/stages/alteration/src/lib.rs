@@ -63,7 +63,11 @@ impl Stage for Alteration {
         let crafting = skein.head.iter().position(|line| *line == Line::Open(Tag::Crafting));
         let index = crafting.unwrap_or(skein.head.len());
         skein.head.splice(index..index, start);
-        skein.tail.extend(end);
+        if !skein.tail.is_empty() {
+            skein.tail.extend(end);
+        } else if !end.is_empty() {
+            notes.say("the print has no end behind which the lines of `end` could stand");
+        }
         if self.remove_redundant {
             redundant::remove(&mut skein.head);
             skein.each(|_, layer: &mut Layer| {

@@ -94,3 +94,17 @@ fn an_end_that_goes_down_is_doubted() {
         assert_eq!(notes.iter().count(), usize::from(lowers), "{end}");
     }
 }
+
+/// Found by the fuzz target `stages`: the end of a print that was cut off stood in its last layer, or in the header.
+#[test]
+fn a_print_that_was_cut_off_gets_no_end_and_a_note() {
+    for body in ["", LAYER] {
+        let mut cut = skein(body);
+        cut.tail.clear();
+        let mut notes = Notes::default();
+        let done =
+            Alteration { start: String::new(), ..Alteration::default() }.craft(cut.clone(), &mut notes);
+        assert_eq!(done, Ok(cut), "{body}");
+        assert!(notes.iter().any(|note| note.text.contains("no end")), "{body}: {notes:?}");
+    }
+}

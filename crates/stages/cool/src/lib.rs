@@ -84,7 +84,7 @@ impl Stage for Cool {
             times,
             nozzles,
         };
-        self.blow(&mut skein);
+        self.blow(&mut skein, notes);
         skein.rewrite(notes, |index, layer, notes| plan.layer(index, layer, notes))
     }
 }
@@ -95,12 +95,16 @@ impl Cool {
         if times.laying == 0.0 { 0.0 } else { (self.minimum_layer_time.f64() - times.all).max(0.0) }
     }
 
-    fn blow(&self, skein: &mut Skein) {
+    fn blow(&self, skein: &mut Skein, notes: &mut Notes) {
         if self.fan {
             let crafting = skein.head.iter().position(|line| *line == Line::Open(Tag::Crafting));
             let index = crafting.map_or(skein.head.len(), |index| index + 1);
             skein.head.insert(index, Line::Verbatim("M106".into()));
-            skein.tail.push(Line::Verbatim("M107".into()));
+            if skein.tail.is_empty() {
+                notes.say("the print has no end at which the fan could be switched off");
+            } else {
+                skein.tail.push(Line::Verbatim("M107".into()));
+            }
         }
     }
 }

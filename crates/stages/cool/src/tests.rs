@@ -121,3 +121,14 @@ fn a_dwell_is_above_the_print_and_as_long_as_is_missing() {
     let dwell = made.iter().position(|line| line == "G4 P7500").expect("a dwell");
     assert_eq!(made[dwell - 1], "G1 X0.0 Y0.0 Z1.0 F1200.0");
 }
+
+/// As in alteration, found by the fuzz target `stages`.
+#[test]
+fn the_fan_of_a_print_that_was_cut_off_stays_on_with_a_note() {
+    let mut cut = skein(START, &square(0.2, ""));
+    cut.tail.clear();
+    let mut notes = Notes::default();
+    let done = Cool { fan: true, ..cool(2.5, 1.0) }.craft(cut, &mut notes).expect("cool");
+    assert_eq!((done.verify(), done.tail.len()), (Ok(()), 0));
+    assert!(notes.iter().any(|note| note.text.contains("no end")), "{notes:?}");
+}
