@@ -526,10 +526,10 @@ fn numbered(profile: &Profile) -> Vec<(usize, &Station)> {
         .collect()
 }
 
-/// `--set STAGE.active=true` for every stage there is.
+/// `--set STAGE.active=true` for every stage there is, but for the spiral, which no copies can be made of.
 fn everything() -> Vec<String> {
     let mut words = vec!["--set".to_owned(), "machine.bed=[600, 600, 400]".to_owned()];
-    for name in STAGES.iter().map(|entry| entry.name) {
+    for name in STAGES.iter().map(|entry| entry.name).filter(|name| *name != "coil") {
         words.extend(["--set".to_owned(), format!("{name}.active=true")]);
     }
     words

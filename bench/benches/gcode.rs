@@ -21,7 +21,7 @@ fn program() -> Vec<u8> {
         print.extend_from_slice(piece);
         Ok(())
     };
-    clayforge::slice(&vase(100_000), &profile, None, &mut |_| Ok(()), &mut sink).expect("a part that fits");
+    clayforge::slice(vase(100_000), &profile, None, &mut |_| Ok(()), &mut sink).expect("a part that fits");
     print.repeat(BYTES / print.len() + 1)
 }
 

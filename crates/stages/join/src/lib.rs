@@ -52,6 +52,10 @@ impl Stage for Join {
     fn craft(&self, mut skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
         let facts = skein.facts()?;
         let nozzles = skein.nozzles();
+        if nozzles.iter().any(|nozzle| nozzle.on) {
+            notes.say("clay goes on from layer to layer already, as coil has it: everything stays as it is");
+            return Ok(skein);
+        }
         let spacings = skein
             .layers
             .iter()

@@ -44,13 +44,15 @@ impl Stage for Skin {
             if nozzles[index].on || index < usize::try_from(self.layers_from).unwrap_or(usize::MAX) {
                 return Ok(layer.lines);
             }
-            // Beside what stands higher already, as behind `tower`, a bead that lies lower would be ploughed.
-            let z = layer.nozzle_z(&facts)?.0;
-            if highest[index].is_some_and(|highest| highest > z) {
-                notes.layer(index, "stays undivided beside what stands higher");
+            // Beside what stands higher than its foot already, as behind `tower`, a bead that lies lower than the layer
+            // would be laid through it.
+            let height = layer.height(&facts)?.0;
+            let foot = layer.nozzle_z(&facts)?.0 - height;
+            if highest[index].is_some_and(|highest| highest > foot) {
+                notes.layer(index, "stays undivided beside what stands already");
                 return Ok(layer.lines);
             }
-            let knife = Knife { skin: self, height: layer.height(&facts)?.0, width, top: top == Some(index) };
+            let knife = Knife { skin: self, height, width, top: top == Some(index) };
             let mut whole = false;
             let lines = knife.layer(layer, &nozzles[index], &mut whole);
             if whole {

@@ -27,7 +27,6 @@ fn splodge() -> Splodge {
         operating_quantity: Micron(1_000),
         initial_lift: Ratio::ONE,
         operating_lift: Ratio::ONE,
-        ..Splodge::default()
     }
 }
 

@@ -33,6 +33,10 @@ impl Stage for Tower {
     fn craft(&self, mut skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
         let facts = skein.facts()?;
         let nozzles = skein.nozzles();
+        if nozzles.iter().any(|nozzle| nozzle.on) {
+            notes.say("clay goes on from layer to layer, so no island can be printed before another");
+            return Ok(skein);
+        }
         let pieces = (skein.layers.iter().zip(&nozzles).enumerate())
             .map(|(index, (layer, nozzle))| {
                 Pieces::read(layer, nozzle, &facts).map_err(|error| error.in_layer(index))
