@@ -117,7 +117,12 @@ fn skein_pictures(
     let mut pictures = Vec::with_capacity(wanted.len());
     for (index, layer) in skein.layers.iter().enumerate() {
         if wanted.contains(&index) {
-            let bead = facts.bead()?.of_height(layer.height(&facts)?);
+            let bead = match facts.bead() {
+                Ok(bead) => bead.of_height(layer.height(&facts)?),
+                // Outlines can be drawn without knowing what a bead is.
+                Err(_) if !layer.lines.contains(&Line::On) => Bead::default(),
+                Err(error) => return Err(error),
+            };
             pictures.push((index, layer, nozzle, bead));
         }
         layer.lines.iter().for_each(|line| nozzle.follow(line));

@@ -53,6 +53,13 @@ pub struct Bead {
     pub section: Section,
 }
 
+impl Default for Bead {
+    /// A bead of no size.
+    fn default() -> Self {
+        Self { width: Micron::ZERO, height: Micron::ZERO, section: Section::Rectangle }
+    }
+}
+
 impl Bead {
     /// Cross-section in mm².
     pub fn area(&self) -> f64 {
