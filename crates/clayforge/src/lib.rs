@@ -24,6 +24,7 @@ mod explain;
 mod figures;
 mod inspect;
 mod limits;
+mod name;
 mod pipeline;
 mod profile;
 mod stages;

@@ -5,13 +5,13 @@ use crate::dump::Dump;
 use crate::output::{Output, put};
 use crate::profile;
 use crate::report::{self, Done, Stop, io_error};
-use clayforge::{Error, Event, Form, stage};
+use clayforge::{Error, Event, Form, Profile, stage};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::cell::Cell;
 use std::fs;
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 /// Slices parts.
 pub fn run(slice: &Slice) -> Done {
@@ -23,7 +23,7 @@ pub fn run(slice: &Slice) -> Done {
     let mut settings = slice.settings.clone();
     settings.set.extend(slice.placing.settings());
     let profile = profile::load(&settings)?;
-    let output = target(slice)?;
+    let output = target(slice, &profile)?;
     // Which part is being read or was read last, so that a fault is told of the right one.
     let at = Cell::new(0);
     let read = |(index, path): (usize, &PathBuf)| {
@@ -94,11 +94,15 @@ fn first(slice: &Slice) -> &PathBuf {
 
 /// Where the result goes: as asked, or the part's name with the ending of what is made. What a stage in the middle
 /// makes has the stage in its name, so that it is not taken for a file that the machine can read.
-fn target(slice: &Slice) -> Result<PathBuf, Stop> {
+fn target(slice: &Slice, profile: &Profile) -> Result<PathBuf, Stop> {
     let last = slice.until.as_deref().and_then(stage).map(|entry| (entry.name, entry.make().forms().1));
     let output = match (&slice.output, last) {
         (Some(output), _) => output.clone(),
-        (None, None | Some((_, Form::Gcode))) => first(slice).with_extension(Form::Gcode.extension()),
+        (None, None | Some((_, Form::Gcode))) => {
+            let part = first(slice);
+            let stem = part.file_stem().unwrap_or_default().to_string_lossy();
+            part.with_file_name(profile.file_name(&stem, &now()))
+        }
         (None, Some((name, form))) => first(slice).with_extension(format!("{name}.{}", form.extension())),
     };
     if slice.parts.iter().any(|part| same(&output, part)) {
@@ -109,6 +113,21 @@ fn target(slice: &Slice) -> Result<PathBuf, Stop> {
         ));
     }
     Ok(output)
+}
+
+/// The day and the time in UTC, like `2026-11-22-1605`.
+fn now() -> String {
+    let minutes = SystemTime::now().duration_since(UNIX_EPOCH).map_or(0, |since| since.as_secs() / 60);
+    let (days, minutes) = (minutes / 1440, minutes % 1440);
+    // Civil from days, counted in eras of 400 years that begin in March (Hinnant, chrono-compatible date algorithms).
+    let days = days + 719_468;
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let date = day - (153 * month + 2) / 5 + 1;
+    let (year, month) = if month < 10 { (year, month + 3) } else { (year + 1, month - 9) };
+    format!("{:04}-{month:02}-{date:02}-{:02}{:02}", era * 400 + year, minutes / 60, minutes % 60)
 }
 
 fn same(one: &Path, other: &Path) -> bool {

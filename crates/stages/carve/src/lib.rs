@@ -36,6 +36,12 @@ pub struct Carve {
     /// lie so that they fill the room between them.
     #[setting(default = Section::Rectangle)]
     pub bead_section: Section,
+    /// How many of the lowest layers are left out, to print the upper part of a pot alone.
+    #[setting(default = 0, min = 0, max = 1000000)]
+    pub skip_lowest: u32,
+    /// How many of the topmost layers are left out.
+    #[setting(default = 0, min = 0, max = 1000000)]
+    pub skip_topmost: u32,
     /// Where the part is put before it is cut.
     #[setting(default = Place::Bed)]
     pub place: Place,
@@ -113,6 +119,7 @@ impl Carve {
         let spot = self.spot(mesh.bounds(), machine, notes)?;
         plate::fits(&mesh, spot.shift, &spot.bounds, machine)?;
         let slabs = planes::slabs(Micron(spot.bounds.max.z), self.first_layer_height, self.layer_height)?;
+        let slabs = self.kept(slabs)?;
         // The part is cut where it lies and its loops are moved: a million vertices need not be.
         let planes: Vec<i32> = slabs.iter().map(|slab| slab.middle.0 - spot.shift.z).collect();
         let mut cut = self.cut(&mesh, &planes, spot.shift);
@@ -128,6 +135,18 @@ impl Carve {
         }
         let slices = self.slices(&slabs, cut, spot.bounds, machine, notes)?;
         Ok(if self.find_bridges { self.with_bridges(slices, &mesh, &planes) } else { slices })
+    }
+
+    /// The layers without those that are left out below and above.
+    fn kept(&self, mut slabs: Vec<Slab>) -> Result<Vec<Slab>, Error> {
+        let count = slabs.len();
+        let (below, above) = (self.skip_lowest as usize, self.skip_topmost as usize);
+        if below.saturating_add(above) >= count {
+            return Err(Error::new(format!("of {count} layers none is left"))
+                .hint("lower carve.skip_lowest and carve.skip_topmost"));
+        }
+        slabs.truncate(count - above);
+        Ok(slabs.split_off(below))
     }
 
     /// The loops of every layer, where they are printed.

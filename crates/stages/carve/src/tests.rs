@@ -191,6 +191,27 @@ fn c2_a_last_slab_of_less_than_three_quarters_is_left_out() {
 }
 
 /// C4: the larger loop first, counter-clockwise; the hole clockwise.
+/// stages_tests.md C6: layers from 2 to -1.
+#[test]
+fn c6_layers_can_be_left_out_below_and_above() {
+    let mm = |value| Micron::from_mm(value).expect("a length");
+    let settings = Carve {
+        layer_height: mm(0.4),
+        first_layer_height: mm(0.4),
+        bead_width: mm(0.72),
+        skip_lowest: 2,
+        skip_topmost: 1,
+        ..Carve::default()
+    };
+    let cube = block((0.0, 20.0), 20.0, (0.0, 10.0));
+    let slices = settings.carve(&cube, &Machine::default(), &mut Notes::default()).expect("a cube");
+    let ends = (slices.layers.first(), slices.layers.last());
+    assert_eq!(slices.layers.len(), 22);
+    assert_eq!((ends.0.map(|layer| layer.z.0), ends.1.map(|layer| layer.z.0)), (Some(1_000), Some(9_400)));
+    let none = Carve { skip_lowest: 20, skip_topmost: 5, ..settings };
+    assert!(none.carve(&cube, &Machine::default(), &mut Notes::default()).is_err());
+}
+
 #[test]
 fn c4_a_ring_is_an_outside_and_a_hole() {
     let mut vertices = Vec::new();
