@@ -565,6 +565,16 @@ fn stage_after_stage_in_a_pipe_gives_the_bytes_of_slice() {
     }
 }
 
+/// stages_tests.md SC2.
+#[test]
+fn sc2_a_part_is_scaled_once() {
+    let room = Room::new();
+    let scale = ["craft", "scale", "--set", "scale.active=true"];
+    let once = room.feed(&scale, &example("cube")).done().out;
+    assert_ne!(once, example("cube"));
+    assert!(room.feed(&scale, &once).done().out == once);
+}
+
 #[test]
 fn a_dump_has_the_text_and_the_drawing_of_every_stage() {
     let room = Room::new();
