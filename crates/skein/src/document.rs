@@ -67,6 +67,11 @@ impl Layer {
 }
 
 impl Layer {
+    /// How many of its first lines say what the layer is: its height, and its thickness where that is its own.
+    pub fn heading(&self) -> usize {
+        self.lines.iter().take_while(|line| matches!(line, Line::Layer(_) | Line::Thickness(_))).count()
+    }
+
     /// Where lines go that come before everything the layer lays: behind its height, its directions, and whatever nobody
     /// knows.
     pub fn opening(&self) -> usize {

@@ -54,7 +54,7 @@ impl Stage for Alteration {
             for (index, layer) in skein.layers.iter_mut().enumerate().skip(self.from_layer as usize) {
                 if (index - self.from_layer as usize).is_multiple_of(self.period as usize) {
                     let lines = block("layer", &self.layer, &variables.in_layer(index, layer.z()))?;
-                    let body = layer.lines.iter().take_while(|line| is_about_layer(line)).count();
+                    let body = layer.heading();
                     layer.lines.splice(body..body, lines);
                 }
             }
@@ -78,10 +78,6 @@ impl Stage for Alteration {
         }
         Ok(skein)
     }
-}
-
-fn is_about_layer(line: &Line) -> bool {
-    matches!(line, Line::Layer(_) | Line::Thickness(_))
 }
 
 fn in_setting(name: &str, line: Option<usize>) -> Place {

@@ -136,8 +136,7 @@ impl Plan<'_> {
         }
         let mut was = *entering;
         let mut pen = Pen::new(entering, layer.lines.len() + 16);
-        let body = layer.lines.iter().take_while(|line| matches!(line, Line::Layer(_) | Line::Thickness(_)));
-        let body = body.count();
+        let body = layer.heading();
         let mut floored = false;
         for (place, line) in layer.lines.into_iter().enumerate() {
             if place == body {

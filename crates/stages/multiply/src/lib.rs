@@ -129,7 +129,7 @@ impl Multiply {
 
 /// The layer with everything that is laid on it once for each copy; what is said to the machine is said once.
 fn repeat(layer: Layer, entering: &Nozzle, shifts: impl ExactSizeIterator<Item = Point>) -> Vec<Line> {
-    let body = layer.lines.iter().take_while(|line| is_about_layer(line)).count();
+    let body = layer.heading();
     let end = layer.lines.len() - usize::from(layer.lines.last() == Some(&Line::Close(Tag::Layer)));
     let mut pen = Pen::new(entering, layer.lines.len() * shifts.len());
     layer.lines[..body].iter().for_each(|line| pen.push(line.clone()));
@@ -152,11 +152,6 @@ fn repeat(layer: Layer, entering: &Nozzle, shifts: impl ExactSizeIterator<Item =
     }
     layer.lines[end.max(body)..].iter().for_each(|line| pen.push(line.clone()));
     pen.finish(&was)
-}
-
-/// The lines with which a layer says what it is.
-fn is_about_layer(line: &Line) -> bool {
-    matches!(line, Line::Layer(_) | Line::Thickness(_))
 }
 
 fn moved(mut line: Line, by: Point) -> Line {
