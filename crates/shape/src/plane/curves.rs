@@ -1,13 +1,15 @@
 //! Closed curves that cross, taken apart into simple loops.
 //!
 //! At each crossing the two strands swap their onward parts, which leaves simple loops that only touch (the Seifert
-//! circles of the curves). The winding number is the same all along one side of such a loop, so a look decides: the
-//! loops with winding 1 on their left and 0 on their right are the outline of everything that is covered at least
-//! once. Crossings are found with boxes around runs of the curve, so the cost grows with the number of points and of
-//! crossings.
+//! circles of the curves). The winding number is the same all along one side of such a loop: the loops with winding 1 on
+//! their left and 0 on their right are the outline of everything that is covered at least once. One look at each curve
+//! tells its winding number at one place; from there it changes by one at every crossing, up or down by the way the
+//! other strand goes. Crossings are found with boxes around runs of the curve, so the cost grows with the number of
+//! points and of crossings.
 //!
-//! Coordinates inside are floats of microns with the rounding errors of floats. Every arc of a loop is looked at, whether
-//! the loop is kept or not; when two disagree, curves touch within that error and the exact integer kernel of
+//! Coordinates inside are floats of microns with the rounding errors of floats. What is known twice is compared: the
+//! arcs of a loop with each other, whether the loop is kept or not, and the winding number after a whole curve with the
+//! one before. When two disagree, curves touch within that error and the exact integer kernel of
 //! [`boolean`](super::boolean) takes over. The result is rounded to whole microns once.
 
 use super::{Point, Ring, boolean};
@@ -124,16 +126,37 @@ pub(super) struct Crossing {
     at: V,
     sides: [usize; 2],
     along: [f64; 2],
+    /// Whether the second goes to the left of the first there.
+    leftwards: bool,
 }
 
 /// A simple loop, taken out of the curves; its arcs run from crossing to crossing.
 #[derive(Default)]
 struct Circle {
     points: Vec<V>,
-    /// Where each arc begins in `points`.
-    arcs: Vec<usize>,
+    arcs: Vec<Arc>,
     /// How long it is, spokes not counted.
     length: f64,
+}
+
+/// A piece of a ring between two crossings, as a part of a loop.
+struct Arc {
+    /// Where it begins in the loop's points.
+    start: usize,
+    /// The ring in [`Curves::rings`].
+    ring: usize,
+    /// The winding number on its left, less that of the ring's beginning.
+    rise: i32,
+}
+
+/// A place of a ring where the winding number is looked up: the middle of its longest piece of a side.
+#[derive(Clone, Copy)]
+struct Anchor {
+    place: V,
+    /// A hundredth of a micron to the left: far above the error of a float, far below what is printed.
+    aside: V,
+    length2: f64,
+    rise: i32,
 }
 
 /// One strand's passage through a crossing.
@@ -143,6 +166,9 @@ struct Visit {
     crossing: usize,
     /// The other strand's passage.
     partner: usize,
+    ring: usize,
+    /// The winding number on the left behind it, less that of the ring's beginning.
+    rise: i32,
 }
 
 impl Curves {
@@ -179,21 +205,37 @@ impl Curves {
     /// The outline of what has a positive winding number.
     pub(super) fn covered(&self) -> Offset {
         let crossings = self.crossings();
-        let mut result = Offset::default();
         if crossings.is_empty() && self.rings.len() == 1 {
             // Nothing can have turned inside out.
-            let ring = rounded(&self.points);
-            result.rings.extend(ring.filter(|ring| ring.area2() > 0));
-            return result;
+            let ring = rounded(&self.points).filter(|ring| ring.area2() > 0);
+            return Offset { rings: ring.into_iter().collect(), lost: 0.0 };
         }
-        for circle in self.circles(&crossings) {
-            match self.is_outline(&circle) {
-                Some(true) => result.rings.extend(rounded(&circle.points)),
-                Some(false) => result.lost = result.lost.max(circle.length),
-                None => return Offset { rings: boolean::positive(&self.raw()), lost: f64::INFINITY },
+        match self.outlines(&crossings) {
+            Some(result) => result,
+            None => Offset { rings: boolean::positive(&self.raw()), lost: f64::INFINITY },
+        }
+    }
+
+    /// The loops that are outlines; `None` when what is known of a loop twice disagrees, which it does where sides lie on
+    /// each other and their crossings are found in no order that fits together.
+    fn outlines(&self, crossings: &[Crossing]) -> Option<Offset> {
+        let circles = self.circles(&self.visits(crossings)?, crossings);
+        let beginnings = self.beginnings(&circles)?;
+        let mut result = Offset::default();
+        for circle in &circles {
+            // Left of an outline all is covered once, and right of it nothing is.
+            let mut arcs = circle.arcs.iter().filter_map(|arc| Some(beginnings[arc.ring]? + arc.rise == 1));
+            let is_outline = arcs.next().unwrap_or(false);
+            if arcs.any(|other| other != is_outline) {
+                return None;
+            }
+            if is_outline {
+                result.rings.extend(rounded(&circle.points));
+            } else {
+                result.lost = result.lost.max(circle.length);
             }
         }
-        result
+        Some(result)
     }
 
     /// The curves as they are, in whole microns.
@@ -297,7 +339,12 @@ impl Curves {
         };
         let along = share(cd.cross(c.to(a)), cd.cross(c.to(b)));
         let along_second = share(ab.cross(a.to(c)), ab.cross(a.to(d)));
-        found.push(Crossing { at: a.plus(ab, along), sides: [side, second], along: [along, along_second] });
+        found.push(Crossing {
+            at: a.plus(ab, along),
+            sides: [side, second],
+            along: [along, along_second],
+            leftwards: self.left(side, end, second_end),
+        });
     }
 
     /// Whether point `k` lies left of the line from `i` to `j`.
@@ -322,8 +369,9 @@ impl Curves {
         positive == even
     }
 
-    /// Takes the curves apart at their crossings.
-    fn circles(&self, crossings: &[Crossing]) -> Vec<Circle> {
+    /// The passages of each ring in their order, with the winding number behind each; `None` when it is not the same again
+    /// after a whole ring.
+    fn visits(&self, crossings: &[Crossing]) -> Option<Vec<Visit>> {
         let mut visits: Vec<Visit> = Vec::with_capacity(crossings.len() * 2);
         for (index, crossing) in crossings.iter().enumerate() {
             for strand in 0..2 {
@@ -332,6 +380,8 @@ impl Curves {
                     along: crossing.along[strand],
                     crossing: index,
                     partner: 0,
+                    ring: 0,
+                    rise: 0,
                 });
             }
         }
@@ -351,14 +401,34 @@ impl Curves {
                 }
             }
         }
+        let (mut ring, mut rise) = (0, 0);
+        for visit in &mut visits {
+            while visit.side >= self.rings[ring].end {
+                if rise != 0 {
+                    return None;
+                }
+                ring += 1;
+            }
+            let crossing = &crossings[visit.crossing];
+            // What a strand has on its left is wound around once more. One that goes to the left has it behind the place
+            // where it crosses, one that goes to the right before it.
+            let is_second = visit.side == crossing.sides[1];
+            rise += if crossing.leftwards == is_second { 1 } else { -1 };
+            (visit.ring, visit.rise) = (ring, rise);
+        }
+        (rise == 0).then_some(visits)
+    }
+
+    /// Takes the curves apart at their crossings.
+    fn circles(&self, visits: &[Visit], crossings: &[Crossing]) -> Vec<Circle> {
         let mut circles: Vec<Circle> = Vec::new();
         let mut used = vec![false; visits.len()];
         let mut from = 0;
-        for tree in &self.rings {
-            let to = from + visits[from..].iter().take_while(|visit| visit.side < tree.end).count();
+        for (ring, tree) in self.rings.iter().enumerate() {
+            let to = from + visits[from..].iter().take_while(|visit| visit.ring == ring).count();
             if from == to {
                 let points = Vec::with_capacity(tree.end - tree.start);
-                let mut circle = Circle { points, arcs: vec![0], length: 0.0 };
+                let mut circle = Circle { points, arcs: vec![Arc { start: 0, ring, rise: 0 }], length: 0.0 };
                 for side in tree.start..tree.end {
                     circle.points.push(self.points[side]);
                     self.lengthen(&mut circle, side, self.after(tree, side));
@@ -372,7 +442,7 @@ impl Curves {
             let mut here = start;
             while !used[here] {
                 used[here] = true;
-                here = self.walk(&visits, here, crossings, &mut circle);
+                here = self.walk(visits, here, crossings, &mut circle);
             }
             if circle.points.len() > 2 {
                 circles.push(circle);
@@ -384,9 +454,9 @@ impl Curves {
     /// Follows the curve from one passage to the next and says where the other strand goes on.
     fn walk(&self, visits: &[Visit], here: usize, crossings: &[Crossing], circle: &mut Circle) -> usize {
         let visit = &visits[here];
-        circle.arcs.push(circle.points.len());
+        circle.arcs.push(Arc { start: circle.points.len(), ring: visit.ring, rise: visit.rise });
         circle.points.push(crossings[visit.crossing].at);
-        let tree = self.tree_of(visit.side);
+        let tree = &self.rings[visit.ring];
         let next = match visits.get(here + 1) {
             Some(next) if next.side < tree.end => here + 1,
             // Round the ring to its first passage.
@@ -416,28 +486,29 @@ impl Curves {
         }
     }
 
-    fn tree_of(&self, side: usize) -> &Tree {
-        &self.rings[self.rings.partition_point(|tree| tree.end <= side)]
-    }
-
-    /// Whether a loop has what is covered on its left and what is not on its right; `None` when its arcs disagree, which
-    /// they do where sides lie on each other and their crossings are found in no order that fits together.
-    fn is_outline(&self, circle: &Circle) -> Option<bool> {
-        let mut outline = None;
-        // Between two crossings the winding number cannot change, so one look at each arc is enough.
-        for (index, &start) in circle.arcs.iter().enumerate() {
-            let end = circle.arcs.get(index + 1).copied().unwrap_or(circle.points.len());
-            let Some((place, aside)) = place_beside(circle, start..end) else { continue };
-            let left = self.winding(place.plus(aside, 1.0));
-            // What is not covered on its left is no outline, whatever lies on its right.
-            let right = if left > 0 { self.winding(place.plus(aside, -1.0)) } else { left };
-            let here = left > 0 && right <= 0;
-            if here && (left, right) != (1, 0) || outline.is_some_and(|before| before != here) {
-                return None;
+    /// The winding number on the left of each ring's beginning, from one look at the ring; nothing for a ring that vanishes
+    /// in rounding, and `None` when a look meets more than one strand.
+    fn beginnings(&self, circles: &[Circle]) -> Option<Vec<Option<i32>>> {
+        let mut anchors: Vec<Option<Anchor>> = vec![None; self.rings.len()];
+        for circle in circles {
+            for (index, arc) in circle.arcs.iter().enumerate() {
+                let end = circle.arcs.get(index + 1).map_or(circle.points.len(), |next| next.start);
+                let best = &mut anchors[arc.ring];
+                if let Some(anchor) = circle.anchor(arc.start..end, arc.rise)
+                    && best.is_none_or(|best| best.length2 < anchor.length2)
+                {
+                    *best = Some(anchor);
+                }
             }
-            outline = Some(here);
         }
-        Some(outline.unwrap_or(false))
+        anchors
+            .into_iter()
+            .map(|anchor| {
+                let Some(Anchor { place, aside, rise, .. }) = anchor else { return Some(None) };
+                let left = self.winding(place.plus(aside, 1.0));
+                (left - self.winding(place.plus(aside, -1.0)) == 1).then_some(Some(left - rise))
+            })
+            .collect()
     }
 
     /// How far along a ray, in lengths of `toward`, the first curve is met, if nearer than `reach`.
@@ -459,23 +530,26 @@ impl Curves {
     }
 }
 
-/// The middle of the longest of some sides and a hundredth of a micron to its left: far above the error of a float, far
-/// below what is printed. `None` when all are shorter than a micron, which vanishes in rounding anyway.
-fn place_beside(circle: &Circle, sides: std::ops::Range<usize>) -> Option<(V, V)> {
-    let points = &circle.points;
-    let side = |index: usize| points[index].to(points[if index + 1 == points.len() { 0 } else { index + 1 }]);
-    let (mut best, mut length2) = (None, 1.0);
-    for index in sides {
-        let vector = side(index);
-        if vector.dot(vector) > length2 {
-            length2 = vector.dot(vector);
-            best = Some(index);
+impl Circle {
+    /// The place to look at some sides; `None` when all are shorter than a micron, which vanishes in rounding anyway.
+    fn anchor(&self, sides: std::ops::Range<usize>, rise: i32) -> Option<Anchor> {
+        let points = &self.points;
+        let side =
+            |index: usize| points[index].to(points[if index + 1 == points.len() { 0 } else { index + 1 }]);
+        let (mut best, mut length2) = (None, 1.0);
+        for index in sides {
+            let vector = side(index);
+            if vector.dot(vector) > length2 {
+                length2 = vector.dot(vector);
+                best = Some(index);
+            }
         }
+        let index = best?;
+        let (vector, reach) = (side(index), 0.01 / length2.sqrt());
+        let left = vector.left();
+        let aside = V { x: left.x * reach, y: left.y * reach };
+        Some(Anchor { place: points[index].plus(vector, 0.5), aside, length2, rise })
     }
-    let index = best?;
-    let (vector, reach) = (side(index), 0.01 / length2.sqrt());
-    let left = vector.left();
-    Some((points[index].plus(vector, 0.5), V { x: left.x * reach, y: left.y * reach }))
 }
 
 impl Tree {
