@@ -194,8 +194,11 @@ fn facts() -> impl Strategy<Value = Facts> {
     );
     let celsius = || option::of((-10_000_000..=10_000_000).prop_map(Celsius));
     let nozzle = [(); 9].map(|()| celsius());
-    (lengths, rest, option::of(bed()), nozzle).prop_map(|(lengths, rest, bed, nozzle)| Facts {
+    let lag = [(); 2].map(|()| option::of((0..=60_000_000).prop_map(Ratio)));
+    (lengths, rest, option::of(bed()), nozzle, lag).prop_map(|(lengths, rest, bed, nozzle, lag)| Facts {
         bed,
+        start_lag: lag[0],
+        stop_lag: lag[1],
         cooling_rate: nozzle[0],
         heating_rate: nozzle[1],
         base_temperature: nozzle[2],

@@ -156,8 +156,9 @@ impl Plan {
         end();
         let place = PLACE.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let small = minimised(&finding.input, |input| {
-            // The same line of the same file: another panic is another finding.
-            attempt(target, input).is_err() && *PLACE.lock().unwrap_or_else(PoisonError::into_inner) == place
+            // The same words from the same line of the same file: another panic is another finding.
+            attempt(target, input).is_err_and(|message| words(&message) == words(&finding.message))
+                && *PLACE.lock().unwrap_or_else(PoisonError::into_inner) == place
         });
         let hash = small.iter().fold(0xcbf2_9ce4_8422_2325_u64, |hash, byte| {
             (hash ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3)
@@ -167,6 +168,11 @@ impl Plan {
         println!("{}: {place}: {}", path.display(), finding.message);
         Ok(())
     }
+}
+
+/// What a panic says, without what it says of the input at hand: no digits, and no more than its first line.
+fn words(message: &str) -> String {
+    message.lines().next().unwrap_or("").chars().filter(|letter| !letter.is_ascii_digit()).collect()
 }
 
 /// No input is at hand.

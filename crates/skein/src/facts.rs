@@ -3,7 +3,7 @@
 use crate::{BedArea, Choice, EUnit, Error, Heaters};
 use std::fmt;
 use std::str::FromStr;
-use unit::{Celsius, Feed, Micron};
+use unit::{Celsius, Feed, Micron, Ratio};
 
 /// The model of a bead's cross-section (clay.md §5.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
@@ -170,6 +170,10 @@ facts! {
     e_unit: EUnit = "eUnit", "carve", read, show;
     /// What the machine can heat.
     heaters: Heaters = "heaters", "carve", read, show;
+    /// How many seconds the clay comes too late after a start, less what stages have made up for.
+    start_lag: Ratio = "startLag", "carve", read, show;
+    /// How many seconds it goes on after a stop, less what stages have made up for.
+    stop_lag: Ratio = "stopLag", "carve", read, show;
     /// What the bed covers of the plane.
     bed: BedArea = "bed", "carve", read, show;
     /// The form of a bead's cross-section.

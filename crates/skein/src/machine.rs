@@ -38,6 +38,11 @@ pub struct Machine {
     /// { per_mm = value } for this much E on every millimetre of a bead of nominal size.
     #[setting(default = EUnit::Mm3, min = 0.000001, max = 100000.0)]
     pub e_unit: EUnit,
+    /// How long the clay goes on after the pump has stopped, and stays away after it has started: print a line, stop, and
+    /// divide the length of its tail by the speed. A bare auger takes 0.05 to 0.2 s, a ram at the nozzle 0.2 to 1 s, a
+    /// hose or a tank of air 1 to 5 s. What makes up for it (oozebane, splodge, dwindle) takes its measure from it.
+    #[setting(default = 0.2, min = 0.0, max = 60.0, unit = "s")]
+    pub lag: Ratio,
     /// What the printer can heat: any of "nozzle", "bed", "chamber". Clay wants none; a chamber may be drying air.
     #[setting(default = Heaters::default())]
     pub heaters: Heaters,

@@ -251,6 +251,8 @@ impl Carve {
             nozzle: Some(machine.nozzle),
             e_unit: Some(machine.e_unit),
             heaters: Some(machine.heaters),
+            start_lag: Some(machine.lag),
+            stop_lag: Some(machine.lag),
             bed: Some(machine.area()),
             bead_section: Some(self.bead_section),
             infill_width: Some(bead.spacing()),

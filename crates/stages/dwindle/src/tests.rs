@@ -5,12 +5,17 @@ use skein::{Micron, Point3, Section};
 fn stage(slow_feed: bool) -> Dwindle {
     let volume = |value: f64| Ratio::from_f64(value / 0.82).expect("a volume");
     Dwindle {
-        pent_up_volume: volume(0.4),
-        slowdown_volume: volume(5.0),
+        pent_up_volume: OrLag::Is(volume(0.4)),
+        slowdown_volume: OrLag::Is(volume(5.0)),
         end_rate: Ratio(500_000),
         slowdown_steps: 3,
         slow_feed,
     }
+}
+
+fn dwindled(slow_feed: bool, thread: Thread) -> Thread {
+    let stage = stage(slow_feed);
+    stage.relief(&Facts::default(), BEAD).expect("volumes").dwindled(thread, BEAD)
 }
 
 const BEAD: Bead = Bead { width: Micron(720), height: Micron(400), section: Section::Rectangle };
@@ -26,7 +31,7 @@ fn thread(mm: i32) -> Thread {
 /// once is done to the one or to the other.
 #[test]
 fn dw1_the_end_of_a_bead_in_three_steps() {
-    let steps = |slow_feed: bool| stage(slow_feed).dwindled(thread(20), BEAD).stretches;
+    let steps = |slow_feed: bool| dwindled(slow_feed, thread(20)).stretches;
     for (piece, end) in steps(false).iter().zip([6_667, 13_333, 20_000]) {
         assert!((piece.step.to.x - end).abs() <= 1, "a cut is rounded to the micron: {piece:?}");
     }
@@ -44,7 +49,7 @@ fn dw1_the_end_of_a_bead_in_three_steps() {
 /// stages_tests.md DW2.
 #[test]
 fn dw2_a_long_bead_is_full_until_its_end() {
-    let pieces = stage(false).dwindled(thread(100), BEAD).stretches;
+    let pieces = dwindled(false, thread(100)).stretches;
     assert_eq!(pieces.len(), 4);
     assert_eq!((pieces[0].flow, (pieces[0].step.to.x + 50) / 100), (Ratio::ONE, 788));
 }
@@ -52,7 +57,24 @@ fn dw2_a_long_bead_is_full_until_its_end() {
 #[test]
 fn a_bead_without_clay_or_length_stays() {
     let mut still = thread(0);
-    assert_eq!(stage(false).dwindled(still.clone(), BEAD).end(), still.end());
+    assert_eq!(dwindled(false, still.clone()).end(), still.end());
     still.stretches[0].flow = Ratio(0);
-    assert_eq!(stage(false).dwindled(still.clone(), BEAD).stretches.len(), 1);
+    assert_eq!(dwindled(false, still.clone()).stretches.len(), 1);
+}
+
+/// Seven times what is pent up at the speed of the beads, unless oozebane has seen to it.
+#[test]
+fn what_is_pent_up_follows_from_the_lag() {
+    let mut facts = Facts {
+        stop_lag: Ratio::from_f64(0.5),
+        operating_feed: Feed::from_mm_per_s(20.0),
+        ..Facts::default()
+    };
+    let stage = Dwindle::default();
+    let relief = stage.relief(&facts, BEAD).expect("a lag");
+    let volume = 0.5 * 20.0 * 0.72 * 0.4;
+    assert!((relief.pent_up - volume).abs() < 1e-9 && (relief.slowdown - 7.0 * volume).abs() < 1e-9);
+    facts.made_up(End::Stop, 10_000.0);
+    assert!(stage.relief(&facts, BEAD).expect("no lag").slowdown <= 0.0);
+    assert!(stage.relief(&Facts::default(), BEAD).is_err());
 }

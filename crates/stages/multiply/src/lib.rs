@@ -48,7 +48,7 @@ impl Stage for Multiply {
         let Some(bounds) = laid(&skein) else { return Ok(skein) };
         let shifts = self.shifts(bounds, width)?;
         let nozzles = skein.nozzles();
-        if self.columns * self.rows > 1 && nozzles.iter().take(skein.layers.len()).any(|nozzle| nozzle.on) {
+        if self.columns * self.rows > 1 && nozzles.iter().any(|nozzle| nozzle.on) {
             return Err(Error::new(
                 "a spiral goes on from layer to layer and cannot be laid in turns with its copies",
             )
@@ -130,7 +130,9 @@ impl Multiply {
 /// The layer with everything that is laid on it once for each copy; what is said to the machine is said once.
 fn repeat(layer: Layer, entering: &Nozzle, shifts: impl ExactSizeIterator<Item = Point>) -> Vec<Line> {
     let body = layer.heading();
-    let end = layer.lines.len() - usize::from(layer.lines.last() == Some(&Line::Close(Tag::Layer)));
+    // What stands behind the layer's end is said once, too.
+    let close = layer.lines.iter().position(|line| *line == Line::Close(Tag::Layer));
+    let end = close.unwrap_or(layer.lines.len());
     let mut pen = Pen::new(entering, layer.lines.len() * shifts.len());
     layer.lines[..body].iter().for_each(|line| pen.push(line.clone()));
     let mut was = *entering;

@@ -109,3 +109,21 @@ fn more_than_fits_any_machine_is_refused() {
     skein.state(&Facts { bead_width: Some(Micron(100_000)), ..Facts::default() }).expect("facts");
     assert!(stage.craft(skein, &mut Notes::default()).is_err());
 }
+
+/// Found by fuzzing: what stands behind the end of a layer was repeated with it.
+#[test]
+fn the_end_of_a_layer_is_not_repeated() {
+    let mut skein = layers(1);
+    skein.layers[0].lines.push(Line::Verbatim("(a remark)".into()));
+    let skein = multiply(2, 1, 0, 0).craft(skein, &mut Notes::default()).expect("multiply");
+    assert_eq!(skein.verify(), Ok(()));
+    assert_eq!(skein.layers[0].lines.iter().filter(|line| **line == Line::Off).count(), 2);
+}
+
+/// Found by fuzzing: a bead that the last layer leaves open cannot be begun again for the next copy.
+#[test]
+fn a_bead_that_never_ends_is_refused() {
+    let mut skein = layers(1);
+    skein.layers[0].lines.retain(|line| *line != Line::Off);
+    assert!(multiply(2, 1, 0, 0).craft(skein, &mut Notes::default()).is_err());
+}

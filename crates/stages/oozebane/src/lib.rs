@@ -6,26 +6,27 @@ mod tests;
 
 use ramp::Ramp;
 use skein::{
-    Choice, Error, Facts, Feed, Layer, Line, Micron, Move, Notes, Nozzle, Pen, Settings, Skein, Span, Stage,
-    Thread, along, spans,
+    Choice, End, Error, Facts, Feed, Layer, Line, Micron, Move, Notes, Nozzle, OrLag, Pen, Settings, Skein,
+    Span, Stage, Thread, along, spans,
 };
 
 /// Stops the clay before the end of a bead and starts it before the beginning.
 #[derive(Clone, Debug, Settings)]
 pub struct Oozebane {
-    /// How long before its end a bead's clay is stopped. What is pent up lays the rest: feed times the time that the
-    /// clay lags behind.
-    #[setting(default = 6.0, min = 0.0, max = 1000.0, unit = "mm")]
-    pub early_shutdown_distance: Micron,
+    /// How long before its end a bead's clay is stopped. What is pent up lays the rest. With "lag" it is the way that the
+    /// nozzle makes, as fast as it is there, while the clay lags behind.
+    #[setting(default = OrLag::Lag, min = 0.0, max = 1000.0, unit = "mm")]
+    pub early_shutdown_distance: OrLag<Micron>,
     /// How long before its beginning a bead's clay is started after a long travel; after a short one it is less.
-    #[setting(default = 3.0, min = 0.0, max = 1000.0, unit = "mm")]
-    pub early_startup_maximum_distance: Micron,
-    /// After a travel of this length the clay is started 63 % of the largest distance before.
-    #[setting(default = 50.0, min = 0.001, max = 100000.0, unit = "mm")]
-    pub early_startup_distance_constant: Micron,
+    #[setting(default = OrLag::Lag, min = 0.0, max = 1000.0, unit = "mm")]
+    pub early_startup_maximum_distance: OrLag<Micron>,
+    /// After a travel of this length the clay is started 63 % of the largest distance before. With "lag" it is the way
+    /// that the nozzle travels while the clay lags behind: so fast the pressure falls.
+    #[setting(default = OrLag::Lag, min = 0.001, max = 100000.0, unit = "mm")]
+    pub early_startup_distance_constant: OrLag<Micron>,
     /// How long before its beginning the clay of the very first bead is started.
-    #[setting(default = 15.0, min = 0.0, max = 1000.0, unit = "mm")]
-    pub first_early_startup_distance: Micron,
+    #[setting(default = OrLag::Lag, min = 0.0, max = 1000.0, unit = "mm")]
+    pub first_early_startup_distance: OrLag<Micron>,
     /// Over what way behind its beginning a bead comes up to its speed.
     #[setting(default = 3.0, min = 0.0, max = 1000.0, unit = "mm")]
     pub after_startup_distance: Micron,
@@ -55,7 +56,12 @@ pub enum Ends {
 impl Stage for Oozebane {
     const NAME: &'static str = "oozebane";
 
-    fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
+    fn craft(&self, mut skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
+        let mut facts = skein.facts()?;
+        let valve = self.valve(&facts)?;
+        facts.made_up(End::Start, valve.early);
+        facts.made_up(End::Stop, valve.off);
+        skein.state(&facts)?;
         let nozzles = skein.nozzles();
         let first = skein.layers.iter().position(|layer| layer.lines.contains(&Line::On));
         let ways: Vec<Ways> = skein
@@ -77,7 +83,6 @@ impl Stage for Oozebane {
             ahead[index] = so_far;
             so_far = if way.beads { way.behind } else { so_far + way.before };
         }
-        let valve = self.valve(&skein.facts()?);
         skein.rewrite(notes, |index, layer, _| {
             let ends = Travels { ahead: ahead[index], behind: behind[index], first: first == Some(index) };
             Ok(valve.layer(layer, &nozzles[index], ends))
@@ -86,8 +91,16 @@ impl Stage for Oozebane {
 }
 
 impl Oozebane {
-    fn valve(&self, facts: &Facts) -> Valve<'_> {
-        Valve { oozebane: self, operating: facts.operating_feed }
+    fn valve(&self, facts: &Facts) -> Result<Valve<'_>, Error> {
+        let laying = || facts.operating_feed();
+        Ok(Valve {
+            oozebane: self,
+            operating: facts.operating_feed,
+            off: self.early_shutdown_distance.way(facts, End::Stop, laying())?,
+            early: self.early_startup_maximum_distance.way(facts, End::Start, laying())?,
+            first_early: self.first_early_startup_distance.way(facts, End::Start, laying())?,
+            decay: self.early_startup_distance_constant.way(facts, End::Start, facts.travel_feed())?,
+        })
     }
 }
 
@@ -125,10 +138,18 @@ struct Travels {
     first: bool,
 }
 
-/// The stage at work.
+/// The stage at work, in microns.
 struct Valve<'a> {
     oozebane: &'a Oozebane,
     operating: Option<Feed>,
+    /// How long before the end of a bead the clay stops.
+    off: f64,
+    /// How long before its beginning it starts after a long travel.
+    early: f64,
+    /// The same for the first of all beads.
+    first_early: f64,
+    /// The travel after which it starts 63 % of that before.
+    decay: f64,
 }
 
 impl Valve<'_> {
@@ -201,7 +222,8 @@ impl Valve<'_> {
             share(behind, oozebane.minimum_distance_for_early_shutdown),
         );
         let length = thread.length();
-        let off = oozebane.early_shutdown_distance.um() * stop;
+        // What follows is a time; a distance that is set stays one.
+        let off = self.off * stop * if oozebane.early_shutdown_distance == OrLag::Lag { ratio } else { 1.0 };
         let up = oozebane.after_startup_distance.um() * start * ratio;
         self.start_early(pen, thread, before, first, ratio);
         let steps = f64::from(oozebane.slowdown_startup_steps);
@@ -224,12 +246,12 @@ impl Valve<'_> {
 
     /// Starts the clay on the travel that has just been written, before the thread begins.
     fn start_early(&self, pen: &mut Pen, thread: &Thread, before: f64, first: bool, ratio: f64) {
-        let oozebane = self.oozebane;
         let early = if first {
-            oozebane.first_early_startup_distance.um()
+            self.first_early
+        } else if self.decay > 0.0 {
+            self.early * (1.0 - libm::exp(-before / self.decay))
         } else {
-            let decay = libm::exp(-before / oozebane.early_startup_distance_constant.um());
-            oozebane.early_startup_maximum_distance.um() * (1.0 - decay)
+            self.early
         };
         let early = early * ratio;
         let Some(first) = thread.stretches.first() else { return };

@@ -18,10 +18,10 @@ fn print(starts: &[f64]) -> Skein {
 
 fn craft() -> Oozebane {
     Oozebane {
-        early_shutdown_distance: Micron(1200),
-        early_startup_maximum_distance: Micron(1200),
-        early_startup_distance_constant: Micron(20_000),
-        first_early_startup_distance: Micron(25_000),
+        early_shutdown_distance: OrLag::Is(Micron(1200)),
+        early_startup_maximum_distance: OrLag::Is(Micron(1200)),
+        early_startup_distance_constant: OrLag::Is(Micron(20_000)),
+        first_early_startup_distance: OrLag::Is(Micron(25_000)),
         after_startup_distance: Micron(1200),
         ends: Ends::Slow,
         ..Oozebane::default()

@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 use skein::{
-    Error, Facts, Feed, Layer, Line, Micron, Notes, Nozzle, Pen, Point3, Ratio, Settings, Skein, Span, Stage,
-    Thread, spans,
+    End, Error, Facts, Feed, Layer, Line, Micron, Notes, Nozzle, OrLag, Pen, Point3, Ratio, Settings, Skein,
+    Span, Stage, Thread, spans,
 };
 
 #[cfg(test)]
@@ -23,9 +23,10 @@ pub struct Splodge {
     /// wide.
     #[setting(default = 0.0, min = 0.0, max = 10.0)]
     pub initial_lift: Ratio,
-    /// The same for the blobs of all other beads.
-    #[setting(default = 3.0, min = 0.0, max = 10000.0, unit = "mm")]
-    pub operating_quantity: Micron,
+    /// The same for the blobs of all other beads. With "lag" it is what is missing until the clay has followed, less what
+    /// oozebane has made up for.
+    #[setting(default = OrLag::Lag, min = 0.0, max = 10000.0, unit = "mm")]
+    pub operating_quantity: OrLag<Micron>,
     /// How fast those are laid.
     #[setting(default = 2.0, min = 0.001, max = 1000.0, unit = "mm/s")]
     pub operating_feed: Feed,
@@ -37,12 +38,15 @@ pub struct Splodge {
 impl Stage for Splodge {
     const NAME: &'static str = "splodge";
 
-    fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
-        let facts = skein.facts()?;
+    fn craft(&self, mut skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
+        let mut facts = skein.facts()?;
+        let quantity = self.operating_quantity.way(&facts, End::Start, facts.operating_feed())?;
         let Some(room) = Room::of(&skein) else { return Ok(skein) };
         let first = skein.layers.iter().position(|layer| layer.lines.contains(&Line::On));
-        let initial = Blob::new(self.initial_quantity, self.initial_feed, self.initial_lift, &facts)?;
-        let usual = Blob::new(self.operating_quantity, self.operating_feed, self.operating_lift, &facts)?;
+        let initial = Blob::new(self.initial_quantity.um(), self.initial_feed, self.initial_lift, &facts)?;
+        let usual = Blob::new(quantity, self.operating_feed, self.operating_lift, &facts)?;
+        facts.made_up(End::Start, quantity);
+        skein.state(&facts)?;
         let nozzles = skein.nozzles();
         skein.rewrite(notes, |index, layer, _| {
             let first = if first == Some(index) { &initial } else { &usual };
@@ -66,8 +70,8 @@ impl Blob {
     /// Nothing when it is too small to be one.
     ///
     /// It is laid on a way as much shorter as it is slower, and is higher by the root of that (stages.md §6.18).
-    fn new(quantity: Micron, feed: Feed, lift: Ratio, facts: &Facts) -> Result<Option<Self>, Error> {
-        if quantity.um() < 0.1 * facts.bead_width()?.um() {
+    fn new(quantity: f64, feed: Feed, lift: Ratio, facts: &Facts) -> Result<Option<Self>, Error> {
+        if quantity < 0.1 * facts.bead_width()?.um() {
             return Ok(None);
         }
         let height = facts.layer_height()?.um();
@@ -77,7 +81,7 @@ impl Blob {
                 .hint("the feed of a blob is nearer to that of the beads")
         };
         Ok(Some(Self {
-            length: quantity.um() * slower,
+            length: quantity * slower,
             feed,
             flow: Ratio::from_f64(1.0 / slower).ok_or_else(high)?,
             lift: ((height / slower.sqrt() - height).max(0.0) * lift.f64()).round() as i32,

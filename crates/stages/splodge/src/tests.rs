@@ -24,7 +24,7 @@ fn splodge() -> Splodge {
         initial_feed: one,
         operating_feed: one,
         initial_quantity: Micron(30_000),
-        operating_quantity: Micron(1_000),
+        operating_quantity: OrLag::Is(Micron(1_000)),
         initial_lift: Ratio::ONE,
         operating_lift: Ratio::ONE,
     }
@@ -67,7 +67,8 @@ fn g2_g6_the_later_blobs() {
 /// stages_tests.md G4.
 #[test]
 fn g4_too_little_is_no_blob() {
-    let none = Splodge { initial_quantity: Micron(71), operating_quantity: Micron(0), ..splodge() };
+    let none =
+        Splodge { initial_quantity: Micron(71), operating_quantity: OrLag::Is(Micron(0)), ..splodge() };
     let skein = Skein::read(TEXT.as_bytes()).expect("a skein");
     assert_eq!(none.craft(skein.clone(), &mut Notes::default()), Ok(skein));
 }
