@@ -79,11 +79,11 @@ pub fn summary(sliced: &Sliced, output: &str, wall: Duration) {
     if let Some(figures) = &sliced.figures {
         let _ = writeln!(
             text,
-            "{} layers, {} threads ({:.2} m), {} travels ({:.2} m)",
-            figures.layers,
-            figures.threads,
+            "{}, {} ({:.2} m), {} ({:.2} m)",
+            count(figures.layers, "layer"),
+            count(figures.threads, "thread"),
             figures.extruded_mm / 1000.0,
-            figures.travels,
+            count(figures.travels, "travel"),
             figures.travel_mm / 1000.0
         );
         let _ = writeln!(
@@ -95,10 +95,15 @@ pub fn summary(sliced: &Sliced, output: &str, wall: Duration) {
         );
     }
     if let Some(found) = sliced.found.filter(|found| found.spirals > 0) {
-        let _ = writeln!(text, "{} spirals", found.spirals);
+        let _ = writeln!(text, "{}", count(found.spirals, "spiral"));
     }
     let _ = writeln!(text, "{} {output} ({:.2} s)", paint("wrote", "1;32"), wall.as_secs_f64());
     say(&text);
+}
+
+/// So many of a thing whose plural has an s.
+fn count(number: usize, thing: &str) -> String {
+    format!("{number} {thing}{}", if number == 1 { "" } else { "s" })
 }
 
 /// A duration as people say it.
