@@ -23,11 +23,12 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    pub(crate) fn new(motion: Motion, judge: Judge) -> Self {
+    /// A machine that lays beads of this width, mm.
+    pub(crate) fn new(motion: Motion, judge: Judge, bead_width: Option<f64>) -> Self {
         Self {
             model: Model::default(),
             motion,
-            spirals: Spirals::default(),
+            spirals: Spirals::new(bead_width),
             judge,
             extruding_lines: 0,
             hops: Count::default(),

@@ -8,13 +8,19 @@ use crate::helix::Helix;
 use crate::layers::{Group, Layers, Mark};
 use crate::motion::{EPSILON_Z, Move};
 use crate::report::{Pitch, Run};
+use crate::trail::Trail;
 
 /// A spiral may stay at one height for so long, mm: Z is written with two or three decimals, so in a gentle climb some
 /// lines repeat the one before.
 const LONGEST_FLAT: f64 = 2.0;
 
+/// How wide a bead lies if nobody says it, mm.
+const BEAD: f64 = 2.0;
+/// A thread lies on itself if its middle lies no farther beside it than so many beads. Two walls of one pot do not.
+const BESIDE: f64 = 0.75;
+
 /// The spirals and layers found so far.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Spirals {
     pub(crate) found: Vec<Run>,
     /// How each of them climbs.
@@ -24,6 +30,7 @@ pub(crate) struct Spirals {
     pub(crate) rounded: Count,
     pub(crate) resets: Count,
     climb: Option<Climb>,
+    trail: Trail,
 }
 
 /// Lines from one change of Z to the last.
@@ -34,9 +41,7 @@ struct Climb {
     last: usize,
     height: Option<f64>,
     rise: f64,
-    /// Up to the last change of Z, and with the flat lines behind it.
     helix: Helix,
-    helix_on: Helix,
     slopes: usize,
     rounded: Count,
     resets: Count,
@@ -47,6 +52,19 @@ struct Climb {
 }
 
 impl Spirals {
+    /// None yet, of beads of this width, mm.
+    pub(crate) fn new(bead_width: Option<f64>) -> Self {
+        Self {
+            found: Vec::new(),
+            pitches: Vec::new(),
+            layers: Layers::default(),
+            rounded: Count::default(),
+            resets: Count::default(),
+            climb: None,
+            trail: Trail::new(BESIDE * bead_width.unwrap_or(BEAD)),
+        }
+    }
+
     /// A line printed at one height. Returns whether it goes on with a layer.
     #[inline(always)]
     pub(crate) fn flat(&mut self, index: usize, step: &Move) -> bool {
@@ -65,9 +83,10 @@ impl Spirals {
             flats.last = index;
             flats.lines += 1;
             climb.flat_length += step.flat_length();
-            climb.helix_on.go_on(step);
             if climb.flat_length > LONGEST_FLAT {
                 self.interrupt();
+            } else {
+                climb.helix.go_on(&mut self.trail, index, step);
             }
         }
     }
@@ -76,8 +95,8 @@ impl Spirals {
     #[inline]
     pub(crate) fn slope(&mut self, index: usize, step: &Move) {
         match &mut self.climb {
-            Some(climb) => climb.go_on(index, step),
-            None => self.climb = Some(Climb::new(self.layers.mark(), index, step)),
+            Some(climb) => climb.go_on(&mut self.trail, index, step),
+            None => self.climb = Some(Climb::new(self.layers.mark(), &mut self.trail, index, step)),
         }
         self.layers.slope(index, step.to);
     }
@@ -109,12 +128,12 @@ impl Spirals {
             && climb.slopes >= 2
             && climb.rise > EPSILON_Z
         {
-            self.take_back(&climb);
+            self.take_back(climb);
         }
     }
 
     /// The climb is a spiral, not layers.
-    fn take_back(&mut self, climb: &Climb) {
+    fn take_back(&mut self, climb: Climb) {
         self.layers.return_to(climb.before);
         self.layers.end();
         if let Some(flats) = climb.flats {
@@ -122,7 +141,7 @@ impl Spirals {
         }
         self.rounded.add_all(&climb.rounded);
         self.resets.add_all(&climb.resets);
-        self.pitches.push(climb.helix.pitch());
+        self.pitches.push(climb.helix.pitch(&self.trail));
         self.found.push(Run { start_index: climb.first, end_index: climb.last, height: climb.height });
     }
 
@@ -133,9 +152,9 @@ impl Spirals {
 }
 
 impl Climb {
-    fn new(before: Mark, index: usize, step: &Move) -> Self {
-        let mut helix = Helix::default();
-        helix.go_on(step);
+    fn new(before: Mark, trail: &mut Trail, index: usize, step: &Move) -> Self {
+        let mut helix = Helix::new(trail);
+        helix.go_on(trail, index, step);
         Self {
             before,
             first: index,
@@ -143,7 +162,6 @@ impl Climb {
             height: step.to,
             rise: step.climb,
             helix,
-            helix_on: helix,
             slopes: 1,
             rounded: Count::default(),
             resets: Count::default(),
@@ -154,11 +172,10 @@ impl Climb {
     }
 
     #[inline]
-    fn go_on(&mut self, index: usize, step: &Move) {
+    fn go_on(&mut self, trail: &mut Trail, index: usize, step: &Move) {
         self.last = index;
         self.rise += step.climb;
-        self.helix_on.go_on(step);
-        self.helix = self.helix_on;
+        self.helix.go_on(trail, index, step);
         self.slopes += 1;
         if let Some(flats) = self.flats.take() {
             self.rounded.add_all(&Count { count: flats.lines, first: flats.first });
@@ -241,7 +258,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
         fn line_by_line_finds_what_the_definition_says(events in events()) {
-            let mut spirals = Spirals::default();
+            let mut spirals = Spirals::new(None);
             let mut height = 0;
             let mut heights = Vec::new();
             for (index, event) in events.iter().enumerate() {

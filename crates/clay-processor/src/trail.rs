@@ -1,0 +1,190 @@
+//! Where a thread has been, and which way it went there.
+//!
+//! A table of fixed size: a place that another one has pushed out is only one that is not found any more. So the memory
+//! is the same for any thread, and what is found depends on nothing but the thread.
+
+/// Slots of the table, a power of two: several turns of any pot, looked at once a cell.
+const SLOTS: usize = 1 << 14;
+/// A turn is longer than so many cells.
+const SHORTEST_TURN: f64 = 6.0;
+/// The cosine of the angle within which two threads go the same way, 60°.
+const SAME_WAY: f64 = 0.5;
+/// A thread lies right on another when it is no farther beside it than this, in cells.
+const ON_TRACK: f64 = 0.25;
+/// A cell and those around it.
+const AROUND: [(i32, i32); 9] =
+    [(0, 0), (1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (-1, -1), (1, -1)];
+
+/// A thread at one place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Look {
+    /// Where, mm.
+    pub(crate) place: (f64, f64),
+    /// Which way it goes, of length 1.
+    pub(crate) heading: (f64, f64),
+    /// How high, mm.
+    pub(crate) height: f64,
+    /// What it rises in a millimetre of its way in XY.
+    pub(crate) slope: f64,
+    /// The way in XY that it has come, mm.
+    pub(crate) way: f64,
+}
+
+impl Look {
+    /// The thread farther on, mm.
+    pub(crate) fn ahead(&self, by: f64) -> Self {
+        let place = (self.place.0 + self.heading.0 * by, self.place.1 + self.heading.1 * by);
+        Self { place, height: self.height + self.slope * by, way: self.way + by, ..*self }
+    }
+
+    /// How high the thread is where it passes `place`, a little before or behind.
+    pub(crate) fn height_abreast_of(&self, place: (f64, f64)) -> f64 {
+        let ahead = (place.0 - self.place.0, place.1 - self.place.1);
+        self.height + self.slope * dot(ahead, self.heading)
+    }
+
+    /// How far to the left of the thread `place` lies, mm.
+    fn beside(&self, place: (f64, f64)) -> f64 {
+        let ahead = (place.0 - self.place.0, place.1 - self.place.1);
+        dot(ahead, (-self.heading.1, self.heading.0))
+    }
+}
+
+/// The places where a thread was looked at, the last one of each cell and quarter of the compass.
+#[derive(Clone, Debug)]
+pub(crate) struct Trail {
+    cell: f64,
+    /// Empty before the first look.
+    slots: Vec<Option<(Key, Look)>>,
+    /// The longest way of a look so far.
+    way: f64,
+}
+
+/// A cell, and the quarter of the compass in which the thread goes through it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Key {
+    column: i32,
+    row: i32,
+    quarter: (bool, bool),
+}
+
+impl Trail {
+    /// Nowhere yet. What lies farther apart than `cell`, mm, is not the same place.
+    pub(crate) fn new(cell: f64) -> Self {
+        Self { cell, slots: Vec::new(), way: 0.0 }
+    }
+
+    /// What lies farther apart is not the same place, mm.
+    pub(crate) fn cell(&self) -> f64 {
+        self.cell
+    }
+
+    /// A thread begins. Returns a way that no look has come yet, mm, for it to go on from.
+    pub(crate) fn begin(&mut self) -> f64 {
+        self.slots.resize(SLOTS, None);
+        self.way + self.cell
+    }
+
+    /// Keeps a look. A cell that the thread has not left since the last one keeps that, so that in the next turn
+    /// something is found as soon as the thread comes to the cell.
+    pub(crate) fn keep(&mut self, look: &Look) {
+        self.way = self.way.max(look.way);
+        let since = look.way - self.shortest_turn();
+        let key = self.key(look.place, quarter(look.heading));
+        if let Some(slot) = self.slots.get_mut(key.slot())
+            && slot.as_ref().is_none_or(|(found, before)| *found != key || before.way <= since)
+        {
+            *slot = Some((key, *look));
+        }
+    }
+
+    /// The nearest place beside `here` where the thread went the same way a turn ago or earlier, but not before it had
+    /// come the way `since`.
+    pub(crate) fn nearest(&self, here: &Look, since: f64) -> Option<&Look> {
+        let own = quarter(here.heading);
+        let mut nearest: Option<(f64, &Look)> = None;
+        for cell in self.cells_around(here) {
+            for quarter in [own, quarter_beside(here.heading)] {
+                let Some(look) = self.earlier(Key { quarter, ..cell }, here, since) else { continue };
+                let squared = squared(look.place, here.place);
+                if squared <= self.cell * self.cell
+                    && dot(look.heading, here.heading) > SAME_WAY
+                    && nearest.is_none_or(|(least, _)| squared < least)
+                {
+                    nearest = Some((squared, look));
+                }
+            }
+            // Most threads lie right on themselves, and nothing can be nearer.
+            if nearest.is_some_and(|(_, look)| look.beside(here.place).abs() < ON_TRACK * self.cell) {
+                break;
+            }
+        }
+        nearest.map(|(_, look)| look)
+    }
+
+    /// How high the thread has come at most in the cells around `here` a turn ago or earlier, whichever way it went, but
+    /// not before it had come the way `since`.
+    pub(crate) fn highest(&self, here: &Look, since: f64) -> Option<f64> {
+        let quarters = [(false, false), (false, true), (true, false), (true, true)];
+        self.cells_around(here)
+            .flat_map(|cell| quarters.map(|quarter| Key { quarter, ..cell }))
+            .filter_map(|key| self.earlier(key, here, since))
+            .map(|look| look.height_abreast_of(here.place))
+            .reduce(f64::max)
+    }
+
+    /// The cell of a look, and those around it.
+    fn cells_around(&self, look: &Look) -> impl Iterator<Item = Key> + use<> {
+        let middle = self.key(look.place, quarter(look.heading));
+        AROUND.iter().map(move |(x, y)| Key {
+            column: middle.column.saturating_add(*x),
+            row: middle.row.saturating_add(*y),
+            ..middle
+        })
+    }
+
+    /// What is kept for a cell from a turn before `here` or earlier.
+    fn earlier(&self, key: Key, here: &Look, since: f64) -> Option<&Look> {
+        let (found, look) = self.slots.get(key.slot())?.as_ref()?;
+        let until = here.way - self.shortest_turn();
+        (*found == key && look.way >= since && look.way <= until).then_some(look)
+    }
+
+    /// A turn is no shorter; a thread that is at the same place again sooner has only wriggled.
+    fn shortest_turn(&self) -> f64 {
+        SHORTEST_TURN * self.cell
+    }
+
+    fn key(&self, (x, y): (f64, f64), quarter: (bool, bool)) -> Key {
+        // The cast keeps what is out of reach at the border, where nothing is printed.
+        Key { column: (x / self.cell).floor() as i32, row: (y / self.cell).floor() as i32, quarter }
+    }
+}
+
+impl Key {
+    /// Odd constants with evenly spread bits: 2⁶⁴ over the golden ratio, and a prime.
+    fn slot(self) -> usize {
+        let place = u64::from(self.column as u32) << 32 | u64::from(self.row as u32);
+        let quarter = u64::from(self.quarter.0) << 1 | u64::from(self.quarter.1);
+        let mixed = (place ^ quarter.wrapping_mul(0xD6E8_FEB8_6659_FD93)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        (mixed >> 40) as usize % SLOTS
+    }
+}
+
+fn quarter((x, y): (f64, f64)) -> (bool, bool) {
+    (x >= 0.0, y >= 0.0)
+}
+
+/// The quarter that a heading lies nearest to beside its own: rounding turns it across.
+fn quarter_beside((x, y): (f64, f64)) -> (bool, bool) {
+    if x.abs() < y.abs() { (x < 0.0, y >= 0.0) } else { (x >= 0.0, y < 0.0) }
+}
+
+fn squared(a: (f64, f64), b: (f64, f64)) -> f64 {
+    let (x, y) = (a.0 - b.0, a.1 - b.1);
+    x * x + y * y
+}
+
+fn dot(a: (f64, f64), b: (f64, f64)) -> f64 {
+    a.0 * b.0 + a.1 * b.1
+}
