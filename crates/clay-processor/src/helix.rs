@@ -58,9 +58,10 @@ impl Helix {
         Self { way, begin: way, turn: way, looked_down: way, ..Self::default() }
     }
 
-    /// The climb goes on with the move at `index`.
+    /// The climb goes on with the move at `index`. Returns the rise of a turn that it completes.
     #[inline]
-    pub(crate) fn go_on(&mut self, trail: &mut Trail, index: usize, step: &Move) {
+    pub(crate) fn go_on(&mut self, trail: &mut Trail, index: usize, step: &Move) -> Option<f64> {
+        let turns = self.turns.len();
         let place = Steep { rise: 0.0, index, height: step.to };
         match step.arc {
             None => self.go_straight(trail, place, step.by, step.rise),
@@ -72,6 +73,7 @@ impl Helix {
                 }
             }
         }
+        self.turns.get(turns).copied()
     }
 
     /// What is known of it at its end.

@@ -87,7 +87,9 @@ impl Machine {
             }
             Class::Slope => {
                 self.print(step);
-                self.spirals.slope(index, step);
+                if let Some(rise) = self.spirals.slope(index, step) {
+                    self.judge.turn(rise);
+                }
                 self.lifted = false;
             }
             Class::Travel => {

@@ -12,7 +12,7 @@ use crate::trail::Trail;
 
 /// A spiral may stay at one height for so long, mm: Z is written with two or three decimals, so in a gentle climb some
 /// lines repeat the one before.
-const LONGEST_FLAT: f64 = 2.0;
+pub(crate) const LONGEST_FLAT: f64 = 2.0;
 
 /// How wide a bead lies if nobody says it, mm.
 const BEAD: f64 = 2.0;
@@ -91,14 +91,18 @@ impl Spirals {
         }
     }
 
-    /// A line printed up or down.
+    /// A line printed up or down. Returns the rise of a turn that it completes.
     #[inline]
-    pub(crate) fn slope(&mut self, index: usize, step: &Move) {
-        match &mut self.climb {
+    pub(crate) fn slope(&mut self, index: usize, step: &Move) -> Option<f64> {
+        let turn = match &mut self.climb {
             Some(climb) => climb.go_on(&mut self.trail, index, step),
-            None => self.climb = Some(Climb::new(self.layers.mark(), &mut self.trail, index, step)),
-        }
+            None => {
+                self.climb = Some(Climb::new(self.layers.mark(), &mut self.trail, index, step));
+                None
+            }
+        };
         self.layers.slope(index, step.to);
+        turn
     }
 
     /// The position is set anew.
@@ -172,10 +176,9 @@ impl Climb {
     }
 
     #[inline]
-    fn go_on(&mut self, trail: &mut Trail, index: usize, step: &Move) {
+    fn go_on(&mut self, trail: &mut Trail, index: usize, step: &Move) -> Option<f64> {
         self.last = index;
         self.rise += step.climb;
-        self.helix.go_on(trail, index, step);
         self.slopes += 1;
         if let Some(flats) = self.flats.take() {
             self.rounded.add_all(&Count { count: flats.lines, first: flats.first });
@@ -183,6 +186,7 @@ impl Climb {
         }
         self.resets.add_all(&self.flat_resets);
         self.flat_resets = Count::default();
+        self.helix.go_on(trail, index, step)
     }
 }
 
@@ -271,7 +275,9 @@ mod tests {
                     Event::Flat(length) => {
                         spirals.flat(index, &Move::made_up(f64::from(length) / 2.0, 0.0, at));
                     }
-                    Event::Slope(rise) => spirals.slope(index, &Move::made_up(1.0, f64::from(rise), at)),
+                    Event::Slope(rise) => {
+                        spirals.slope(index, &Move::made_up(1.0, f64::from(rise), at));
+                    }
                     Event::Travel => spirals.interrupt(),
                 }
             }

@@ -15,6 +15,7 @@ use super::{text, tower};
 use crate::breaks::Breaks;
 use crate::motion::{Class, EPSILON_Z, Motion, Move};
 use crate::report::{Interruptions, Model, Pitch};
+use crate::spirals::LONGEST_FLAT;
 
 /// Clay that falls so many layer heights falls in the air.
 const AIR: f64 = 3.0;
@@ -34,6 +35,7 @@ pub(crate) struct Judge {
     /// Where the nozzle is, from the end stops.
     at: Option<(f64, f64)>,
     layer: LayerSize,
+    steps: Steps,
     /// Clay has been laid.
     printed: bool,
     /// The highest clay, and the last, as far as heights are known.
@@ -51,9 +53,61 @@ pub(crate) struct Judge {
 /// How high a layer is, as far as it can be told.
 #[derive(Clone, Copy, Debug)]
 struct LayerSize {
+    /// 0 in the first turn of a spiral.
     height: f64,
     /// Somebody has said it, or clay has been laid at two heights.
     known: bool,
+}
+
+/// Finds the steps from layer to layer in what is laid higher than before.
+#[derive(Clone, Copy, Debug, Default)]
+struct Steps {
+    /// Where a layer was laid last, or a spiral has come to.
+    level: f64,
+    /// Slopes since, and the flat way behind the last of them, mm.
+    slopes: usize,
+    flat: f64,
+}
+
+impl Steps {
+    /// Clay is laid on a slope, or above the last level. Returns how high a layer is that shows.
+    fn take(&mut self, step: &Move, altitude: f64) -> Option<f64> {
+        if step.class == Class::Slope {
+            self.slopes += 1;
+            self.flat = 0.0;
+            // One slope leads from a layer to the next; in a spiral only a whole turn shows how high a layer is.
+            if self.slopes > 1 {
+                self.level = altitude;
+            }
+            return None;
+        }
+        self.flat += step.flat_length();
+        if self.flat <= LONGEST_FLAT {
+            return None;
+        }
+        let height = altitude - self.level;
+        *self = Self { level: altitude, ..Self::default() };
+        Some(height)
+    }
+}
+
+impl LayerSize {
+    /// A layer of this height is seen. The first one alone may be of another height than the rest.
+    fn grow(&mut self, height: f64, known: bool) {
+        *self = Self { height: self.height.max(height), known: self.known || known };
+    }
+
+    /// What differs by less is of one layer, mm.
+    fn same(&self) -> f64 {
+        (self.height / 2.0).max(EPSILON_Z)
+    }
+
+    /// Clay that is laid at `altitude` falls in the air if what stands below is lower than this. Nothing if it is little
+    /// above the bed, or nobody knows how high a layer is.
+    fn air_below(&self, altitude: f64) -> Option<f64> {
+        let deep = altitude - AIR * self.height;
+        (deep > 0.0 && self.height > 0.0).then_some(deep)
+    }
 }
 
 /// Where clay was laid last. Fine curves lay many strokes into one cell of the map, and only the first of them finds
@@ -86,6 +140,7 @@ impl Judge {
             repeats: Repeats::default(),
             at: None,
             layer: LayerSize { height: known.unwrap_or(0.0), known: known.is_some() },
+            steps: Steps::default(),
             printed: false,
             highest: None,
             last: None,
@@ -147,7 +202,7 @@ impl Judge {
         self.rise(index, step, altitude);
         let Some(to) = place else { return self.look(index, true, None, altitude) };
         let Some(from) = self.at else {
-            self.ground.lay(to, altitude, self.layer.height / 2.0);
+            self.ground.lay(to, altitude, self.layer.same());
             return self.look(index, true, Some(to), altitude);
         };
         match step.arc {
@@ -180,7 +235,7 @@ impl Judge {
             }
             return;
         }
-        let same = self.layer.height / 2.0;
+        let same = self.layer.same();
         let mut before = 0.0;
         for (place, share) in self.ground.along(from, to) {
             if class == Class::Flat
@@ -203,12 +258,10 @@ impl Judge {
     /// Whether clay that is laid here falls.
     #[inline]
     fn hangs(&self, place: (f64, f64), altitude: f64) -> bool {
-        let deep = altitude - AIR * self.layer.height;
-        let same = self.layer.height / 2.0;
+        let Some(deep) = self.layer.air_below(altitude) else { return false };
+        let same = self.layer.same();
         let falls = |below: Option<f64>| below.is_none_or(|below| below < deep);
-        // What lies on the bed, or little above it, does not fall.
-        deep > 0.0
-            && falls(self.ground.below(place, altitude, same))
+        falls(self.ground.below(place, altitude, same))
             && falls(self.ground.below_near(place, altitude, same))
     }
 
@@ -221,21 +274,28 @@ impl Judge {
     #[inline(always)]
     fn rise(&mut self, index: usize, step: &Move, altitude: f64) {
         self.last = Some(altitude);
-        let Some(highest) = self.highest else {
-            self.highest = Some(altitude);
-            self.layer.height = self.layer.height.max(altitude);
-            return;
-        };
-        let rise = altitude - highest;
-        if rise <= EPSILON_Z {
-            return;
+        if step.class == Class::Slope || altitude - self.steps.level > EPSILON_Z {
+            self.climb(index, step, altitude);
         }
-        if self.layer.known && rise > AIR * self.layer.height {
-            self.highest = Some(altitude);
+    }
+
+    #[inline(never)]
+    fn climb(&mut self, index: usize, step: &Move, altitude: f64) {
+        let rise = self.highest.map(|highest| altitude - highest);
+        self.highest = Some(self.highest.map_or(altitude, |highest| highest.max(altitude)));
+        if let Some(rise) = rise.filter(|rise| self.layer.known && *rise > AIR * self.layer.height) {
+            self.steps = Steps { level: altitude, ..Steps::default() };
             return self.findings.add(Rule::LiftedOff, index, step.to, rise);
         }
-        self.highest = Some(altitude);
-        self.layer = LayerSize { height: self.layer.height.max(rise), known: true };
+        let is_first = self.steps.level == 0.0;
+        if let Some(height) = self.steps.take(step, altitude) {
+            self.layer.grow(height, !is_first);
+        }
+    }
+
+    /// A spiral has come round and lies so much higher.
+    pub(crate) fn turn(&mut self, rise: f64) {
+        self.layer.grow(rise, true);
     }
 
     #[cold]
@@ -300,15 +360,15 @@ impl Judge {
     /// Goes straight to a place without clay. Returns how far it goes over open air.
     fn fly(&mut self, index: usize, way: &mut Way, to: (f64, f64), share_of_way: f64) -> f64 {
         let Some(last) = self.last else { return 0.0 };
-        let deep = last - AIR * self.layer.height;
-        let same = self.layer.height / 2.0;
+        let deep = self.layer.air_below(last);
+        let same = self.layer.same();
         let (mut air, mut before) = (0.0, 0.0);
         for (place, share) in self.ground.along(way.from, to) {
             let altitude = way.start + way.rise * (way.done + share * share_of_way);
             if let Some(top) = self.ground.top(place).filter(|top| *top > altitude + same) {
                 self.findings.add(Rule::IntoClay, index, Some(altitude), top - altitude);
             }
-            if deep > 0.0 && self.ground.top_near(place).is_none_or(|top| top < deep) {
+            if deep.is_some_and(|deep| self.ground.top_near(place).is_none_or(|top| top < deep)) {
                 air += (share - before) * share_of_way * way.length;
             }
             before = share;
