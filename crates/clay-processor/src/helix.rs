@@ -53,8 +53,8 @@ struct Stretch {
 
 impl Helix {
     /// A climb that begins with a new piece of the trail.
-    pub(crate) fn new(trail: &mut Trail) -> Self {
-        let way = trail.begin();
+    pub(crate) fn new(trail: &Trail) -> Self {
+        let way = trail.unknown_way();
         Self { way, begin: way, turn: way, looked_down: way, ..Self::default() }
     }
 

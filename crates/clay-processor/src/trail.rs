@@ -1,10 +1,12 @@
 //! Where a thread has been, and which way it went there.
 //!
-//! A table of fixed size: a place that another one has pushed out is only one that is not found any more. So the memory
-//! is the same for any thread, and what is found depends on nothing but the thread.
+//! A table that grows up to a size that holds several turns of any pot. From then on a place that another one has pushed
+//! out is only one that is not found any more. So the memory is bounded for any thread, and what is found depends on
+//! nothing but the thread.
 
-/// Slots of the table, a power of two: several turns of any pot, looked at once a cell.
-const SLOTS: usize = 1 << 14;
+/// Slots of the table, at first and at most; powers of two.
+const FEWEST_SLOTS: usize = 1 << 8;
+const MOST_SLOTS: usize = 1 << 14;
 /// A turn is longer than so many cells.
 const SHORTEST_TURN: f64 = 6.0;
 /// The cosine of the angle within which two threads go the same way, 60°.
@@ -54,8 +56,9 @@ impl Look {
 #[derive(Clone, Debug)]
 pub(crate) struct Trail {
     cell: f64,
-    /// Empty before the first look.
     slots: Vec<Option<(Key, Look)>>,
+    /// How many of them were ever filled.
+    filled: usize,
     /// The longest way of a look so far.
     way: f64,
 }
@@ -71,7 +74,7 @@ struct Key {
 impl Trail {
     /// Nowhere yet. What lies farther apart than `cell`, mm, is not the same place.
     pub(crate) fn new(cell: f64) -> Self {
-        Self { cell, slots: Vec::new(), way: 0.0 }
+        Self { cell, slots: Vec::new(), filled: 0, way: 0.0 }
     }
 
     /// What lies farther apart is not the same place, mm.
@@ -79,9 +82,8 @@ impl Trail {
         self.cell
     }
 
-    /// A thread begins. Returns a way that no look has come yet, mm, for it to go on from.
-    pub(crate) fn begin(&mut self) -> f64 {
-        self.slots.resize(SLOTS, None);
+    /// A way that no look has come yet, mm, for a thread that begins.
+    pub(crate) fn unknown_way(&self) -> f64 {
         self.way + self.cell
     }
 
@@ -89,13 +91,35 @@ impl Trail {
     /// something is found as soon as the thread comes to the cell.
     pub(crate) fn keep(&mut self, look: &Look) {
         self.way = self.way.max(look.way);
+        if self.filled * 4 >= self.slots.len() && self.slots.len() < MOST_SLOTS {
+            self.grow();
+        }
+        self.put(self.key(look.place, quarter(look.heading)), look);
+    }
+
+    fn grow(&mut self) {
+        let size = (self.slots.len() * 2).clamp(FEWEST_SLOTS, MOST_SLOTS);
+        let old = std::mem::replace(&mut self.slots, vec![None; size]);
+        self.filled = 0;
+        for (key, look) in old.into_iter().flatten() {
+            self.put(key, &look);
+        }
+    }
+
+    fn put(&mut self, key: Key, look: &Look) {
         let since = look.way - self.shortest_turn();
-        let key = self.key(look.place, quarter(look.heading));
-        if let Some(slot) = self.slots.get_mut(key.slot())
+        let slot = self.slot_of(key);
+        if let Some(slot) = self.slots.get_mut(slot)
             && slot.as_ref().is_none_or(|(found, before)| *found != key || before.way <= since)
         {
+            self.filled += usize::from(slot.is_none());
             *slot = Some((key, *look));
         }
+    }
+
+    fn slot_of(&self, key: Key) -> usize {
+        // Without slots it is none of them.
+        key.mixed() & self.slots.len().wrapping_sub(1)
     }
 
     /// The nearest place beside `here` where the thread went the same way a turn ago or earlier, but not before it had
@@ -145,7 +169,7 @@ impl Trail {
 
     /// What is kept for a cell from a turn before `here` or earlier.
     fn earlier(&self, key: Key, here: &Look, since: f64) -> Option<&Look> {
-        let (found, look) = self.slots.get(key.slot())?.as_ref()?;
+        let (found, look) = self.slots.get(self.slot_of(key))?.as_ref()?;
         let until = here.way - self.shortest_turn();
         (*found == key && look.way >= since && look.way <= until).then_some(look)
     }
@@ -163,11 +187,11 @@ impl Trail {
 
 impl Key {
     /// Odd constants with evenly spread bits: 2⁶⁴ over the golden ratio, and a prime.
-    fn slot(self) -> usize {
+    fn mixed(self) -> usize {
         let place = u64::from(self.column as u32) << 32 | u64::from(self.row as u32);
         let quarter = u64::from(self.quarter.0) << 1 | u64::from(self.quarter.1);
         let mixed = (place ^ quarter.wrapping_mul(0xD6E8_FEB8_6659_FD93)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        (mixed >> 40) as usize % SLOTS
+        (mixed >> 40) as usize
     }
 }
 

@@ -177,7 +177,11 @@ mod tests {
         assert_eq!(ground.below(middle, 3.25, 0.5), Some(1.5), "not what is laid with it");
         assert_eq!(ground.below_near((33.0, 0.0), 4.75, 0.5), Some(3.25));
         ground.lay(middle, 3.6, 0.5);
-        assert_eq!(ground.below(middle, 3.6, 0.5), Some(3.25), "steps of less than a layer are layers in the end");
+        assert_eq!(
+            ground.below(middle, 3.6, 0.5),
+            Some(3.25),
+            "steps of less than a layer are layers in the end"
+        );
     }
 
     #[test]
