@@ -81,8 +81,9 @@ impl Steps {
             }
             return None;
         }
+        // Behind a slope it may be a spiral whose height is rounded.
         self.flat += step.flat_length();
-        if self.flat <= LONGEST_FLAT {
+        if self.slopes > 0 && self.flat <= LONGEST_FLAT {
             return None;
         }
         let height = altitude - self.level;
