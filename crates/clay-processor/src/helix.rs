@@ -11,7 +11,7 @@ use crate::trail::{Look, Trail};
 
 /// Places that are kept lie so far apart, and those that are looked down from, in cells.
 const STRIDE: f64 = 1.0;
-const PACE: f64 = 2.0;
+const PACE: f64 = 3.0;
 /// One move is looked at in so many places at most.
 const MOST_LOOKS: f64 = 1024.0;
 /// Threads so many usual turns apart are no neighbours: one of them is laid in the air.

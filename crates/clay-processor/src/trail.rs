@@ -59,7 +59,7 @@ pub(crate) struct Trail {
     slots: Vec<Option<(Key, Look)>>,
     /// How many of them were ever filled.
     filled: usize,
-    /// The longest way of a look so far.
+    /// The way of the last look: none was longer.
     way: f64,
 }
 
@@ -90,7 +90,7 @@ impl Trail {
     /// Keeps a look. A cell that the thread has not left since the last one keeps that, so that in the next turn
     /// something is found as soon as the thread comes to the cell.
     pub(crate) fn keep(&mut self, look: &Look) {
-        self.way = self.way.max(look.way);
+        self.way = look.way;
         if self.filled * 4 >= self.slots.len() && self.slots.len() < MOST_SLOTS {
             self.grow();
         }
@@ -180,8 +180,7 @@ impl Trail {
     }
 
     fn key(&self, (x, y): (f64, f64), quarter: (bool, bool)) -> Key {
-        // The cast keeps what is out of reach at the border, where nothing is printed.
-        Key { column: (x / self.cell).floor() as i32, row: (y / self.cell).floor() as i32, quarter }
+        Key { column: floor(x / self.cell), row: floor(y / self.cell), quarter }
     }
 }
 
@@ -193,6 +192,12 @@ impl Key {
         let mixed = (place ^ quarter.wrapping_mul(0xD6E8_FEB8_6659_FD93)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
         (mixed >> 40) as usize
     }
+}
+
+/// What is out of reach is kept at the border, where nothing is printed. A cast is faster than rounding.
+fn floor(value: f64) -> i32 {
+    let whole = value as i32;
+    if f64::from(whole) > value { whole.saturating_sub(1) } else { whole }
 }
 
 fn quarter((x, y): (f64, f64)) -> (bool, bool) {
