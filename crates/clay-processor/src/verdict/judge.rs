@@ -6,6 +6,7 @@ use super::ending::End;
 use super::findings::Findings;
 use super::firmware::Control;
 use super::ground::Ground;
+use super::layer_height::LayerHeight;
 use super::limits::Limits;
 use super::pump::Pump;
 use super::repeats::Repeats;
@@ -15,10 +16,7 @@ use super::{text, tower};
 use crate::breaks::Breaks;
 use crate::motion::{Class, EPSILON_Z, Motion, Move};
 use crate::report::{Interruptions, Model, Pitch};
-use crate::spirals::LONGEST_FLAT;
 
-/// Clay that falls so many layer heights falls in the air.
-const AIR: f64 = 3.0;
 /// A bead that hangs over so many cells of the map hangs in the air: less is an overhang, or a corner.
 const HANGING: f64 = 4.0;
 
@@ -34,8 +32,7 @@ pub(crate) struct Judge {
     repeats: Repeats,
     /// Where the nozzle is, from the end stops.
     at: Option<(f64, f64)>,
-    layer: LayerSize,
-    steps: Steps,
+    layer: LayerHeight,
     /// Clay has been laid.
     printed: bool,
     /// The highest clay, and the last, as far as heights are known.
@@ -48,67 +45,6 @@ pub(crate) struct Judge {
     spot: Option<Spot>,
     /// `G92` has called the height otherwise amid the print: the heights of layers cannot be compared any more.
     renamed: bool,
-}
-
-/// How high a layer is, as far as it can be told.
-#[derive(Clone, Copy, Debug)]
-struct LayerSize {
-    /// 0 in the first turn of a spiral.
-    height: f64,
-    /// Somebody has said it, or clay has been laid at two heights.
-    known: bool,
-}
-
-/// Finds the steps from layer to layer in what is laid higher than before.
-#[derive(Clone, Copy, Debug, Default)]
-struct Steps {
-    /// Where a layer was laid last, or a spiral has come to.
-    level: f64,
-    /// Slopes since, and the flat way behind the last of them, mm.
-    slopes: usize,
-    flat: f64,
-}
-
-impl Steps {
-    /// Clay is laid on a slope, or above the last level. Returns how high a layer is that shows.
-    fn take(&mut self, step: &Move, altitude: f64) -> Option<f64> {
-        if step.class == Class::Slope {
-            self.slopes += 1;
-            self.flat = 0.0;
-            // One slope leads from a layer to the next; in a spiral only a whole turn shows how high a layer is.
-            if self.slopes > 1 {
-                self.level = altitude;
-            }
-            return None;
-        }
-        // Behind a slope it may be a spiral whose height is rounded.
-        self.flat += step.flat_length();
-        if self.slopes > 0 && self.flat <= LONGEST_FLAT {
-            return None;
-        }
-        let height = altitude - self.level;
-        *self = Self { level: altitude, ..Self::default() };
-        Some(height)
-    }
-}
-
-impl LayerSize {
-    /// A layer of this height is seen. The first one alone may be of another height than the rest.
-    fn grow(&mut self, height: f64, known: bool) {
-        *self = Self { height: self.height.max(height), known: self.known || known };
-    }
-
-    /// What differs by less is of one layer, mm.
-    fn same(&self) -> f64 {
-        (self.height / 2.0).max(EPSILON_Z)
-    }
-
-    /// Clay that is laid at `altitude` falls in the air if what stands below is lower than this. Nothing if it is little
-    /// above the bed, or nobody knows how high a layer is.
-    fn air_below(&self, altitude: f64) -> Option<f64> {
-        let deep = altitude - AIR * self.height;
-        (deep > 0.0 && self.height > 0.0).then_some(deep)
-    }
 }
 
 /// Where clay was laid last. Fine curves lay many strokes into one cell of the map, and only the first of them finds
@@ -140,8 +76,7 @@ impl Judge {
             pump: Pump::new(&limits),
             repeats: Repeats::default(),
             at: None,
-            layer: LayerSize { height: known.unwrap_or(0.0), known: known.is_some() },
-            steps: Steps::default(),
+            layer: LayerHeight::new(known),
             printed: false,
             highest: None,
             last: None,
@@ -275,28 +210,26 @@ impl Judge {
     #[inline(always)]
     fn rise(&mut self, index: usize, step: &Move, altitude: f64) {
         self.last = Some(altitude);
-        if step.class == Class::Slope || altitude - self.steps.level > EPSILON_Z {
+        if self.layer.may_rise(step, altitude) {
             self.climb(index, step, altitude);
         }
     }
 
     #[inline(never)]
     fn climb(&mut self, index: usize, step: &Move, altitude: f64) {
-        let rise = self.highest.map(|highest| altitude - highest);
+        let rise = self.highest.map_or(0.0, |highest| altitude - highest);
         self.highest = Some(self.highest.map_or(altitude, |highest| highest.max(altitude)));
-        if let Some(rise) = rise.filter(|rise| self.layer.known && *rise > AIR * self.layer.height) {
-            self.steps = Steps { level: altitude, ..Steps::default() };
-            return self.findings.add(Rule::LiftedOff, index, step.to, rise);
-        }
-        let is_first = self.steps.level == 0.0;
-        if let Some(height) = self.steps.take(step, altitude) {
-            self.layer.grow(height, !is_first);
+        if self.layer.is_lifted(rise) {
+            self.layer.skip_to(altitude);
+            self.findings.add(Rule::LiftedOff, index, step.to, rise);
+        } else {
+            self.layer.rise(step, altitude);
         }
     }
 
     /// A spiral has come round and lies so much higher.
     pub(crate) fn turn(&mut self, rise: f64) {
-        self.layer.grow(rise, true);
+        self.layer.turn(rise);
     }
 
     #[cold]
