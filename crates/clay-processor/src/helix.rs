@@ -36,9 +36,7 @@ pub(crate) struct Helix {
     /// The way where the climb began, and the turn that goes on.
     begin: f64,
     turn: f64,
-    /// What each whole turn has risen, and all of them.
-    turns: Vec<f64>,
-    risen_in_turns: f64,
+    turns: Turns,
     stretch: Option<Stretch>,
     steepest: Option<Steep>,
 }
@@ -61,7 +59,7 @@ impl Helix {
     /// The climb goes on with the move at `index`. Returns the rise of a turn that it completes.
     #[inline]
     pub(crate) fn go_on(&mut self, trail: &mut Trail, index: usize, step: &Move) -> Option<f64> {
-        let turns = self.turns.len();
+        let turns = self.turns.all.len();
         let place = Steep { rise: 0.0, index, height: step.to };
         match step.arc {
             None => self.go_straight(trail, place, step.by, step.rise),
@@ -73,7 +71,7 @@ impl Helix {
                 }
             }
         }
-        self.turns.get(turns).copied()
+        self.turns.all.get(turns).map(|turn| turn.rise)
     }
 
     /// What is known of it at its end.
@@ -81,8 +79,8 @@ impl Helix {
         if let Some((place, end)) = self.end {
             self.look_down(trail, place, &end);
         }
-        let measured = self.turns.len();
-        let rise = middle(&mut self.turns).filter(|rise| *rise > 0.0);
+        let measured = self.turns.all.len();
+        let rise = self.turns.usual().filter(|rise| *rise > 0.0);
         // Where islands end and walls lean much it does not come back above itself, but goes on rising.
         let turns = rise.map_or(0.0, |rise| self.risen / rise);
         let top = self.end.and_then(|(place, _)| place.height);
@@ -135,10 +133,9 @@ impl Helix {
             // The next turn begins where this one ended, up to a pace ago, or on another island.
             let late = (below.way - self.turn).min((PACE + STRIDE) * trail.cell());
             self.turn = here.way - late;
-            self.turns.push(rise);
-            self.risen_in_turns += rise;
+            self.turns.add(Turn { rise, length: here.way - below.way });
         }
-        let rise = if self.is_more_than(STEEP, rise) { self.above_all(trail, here) } else { rise };
+        let rise = if self.turns.are_exceeded(STEEP, rise) { self.above_all(trail, here) } else { rise };
         self.measure(trail.cell(), here.way, Steep { rise, ..place });
     }
 
@@ -148,14 +145,9 @@ impl Helix {
         trail.highest(here, self.begin).map_or(0.0, |highest| here.height - highest)
     }
 
-    /// Whether `rise` is more than so many usual turns.
-    fn is_more_than(&self, turns: f64, rise: f64) -> bool {
-        rise * self.turns.len() as f64 > turns * self.risen_in_turns
-    }
-
     /// The thread lies so far above itself here.
     fn measure(&mut self, cell: f64, way: f64, here: Steep) {
-        if self.turns.is_empty() || self.is_more_than(NEIGHBOURS, here.rise) {
+        if self.turns.all.is_empty() || self.turns.are_exceeded(NEIGHBOURS, here.rise) {
             self.stretch = None;
             return;
         }
@@ -173,8 +165,42 @@ impl Helix {
     }
 }
 
-/// The middle one by size, the lesser of two.
-pub(crate) fn middle(all: &mut [f64]) -> Option<f64> {
-    let at = all.len().checked_sub(1)? / 2;
-    Some(*all.select_nth_unstable_by(at, f64::total_cmp).1)
+/// The whole turns so far. A turn counts by its length: where a thread goes back a little to go on, it comes back above
+/// itself soon, and that is none of its turns.
+#[derive(Clone, Debug, Default)]
+struct Turns {
+    all: Vec<Turn>,
+    length: f64,
+    /// The rises times the lengths.
+    product: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Turn {
+    rise: f64,
+    length: f64,
+}
+
+impl Turns {
+    fn add(&mut self, turn: Turn) {
+        self.length += turn.length;
+        self.product += turn.rise * turn.length;
+        self.all.push(turn);
+    }
+
+    /// Whether `rise` is more than so many turns rise on average.
+    fn are_exceeded(&self, turns: f64, rise: f64) -> bool {
+        rise * self.length > turns * self.product
+    }
+
+    /// What half of them rise at most, and half at least.
+    fn usual(&mut self) -> Option<f64> {
+        self.all.sort_unstable_by(|one, other| one.rise.total_cmp(&other.rise));
+        let mut length = 0.0;
+        let turn = self.all.iter().find(|turn| {
+            length += turn.length;
+            length * 2.0 >= self.length
+        });
+        turn.map(|turn| turn.rise)
+    }
 }

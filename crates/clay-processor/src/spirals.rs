@@ -14,8 +14,9 @@ use crate::trail::Trail;
 /// lines repeat the one before.
 pub(crate) const LONGEST_FLAT: f64 = 2.0;
 
-/// How wide a bead lies if nobody says it, mm.
+/// How wide a bead lies if nobody says it, and the finest that is told apart from its neighbour, mm.
 const BEAD: f64 = 2.0;
+const FINEST: f64 = 1.0;
 /// A thread lies on itself if its middle lies no farther beside it than so many beads. Two walls of one pot do not.
 const BESIDE: f64 = 0.75;
 
@@ -61,7 +62,7 @@ impl Spirals {
             rounded: Count::default(),
             resets: Count::default(),
             climb: None,
-            trail: Trail::new(BESIDE * bead_width.unwrap_or(BEAD)),
+            trail: Trail::new(BESIDE * bead_width.unwrap_or(BEAD).max(FINEST)),
         }
     }
 

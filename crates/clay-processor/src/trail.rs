@@ -217,3 +217,55 @@ fn squared(a: (f64, f64), b: (f64, f64)) -> f64 {
 fn dot(a: (f64, f64), b: (f64, f64)) -> f64 {
     a.0 * b.0 + a.1 * b.1
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A thread from the origin along X, to and fro on `length` mm, that rises by 1 mm each time.
+    fn to_and_fro(length: f64, times: usize) -> (Trail, f64) {
+        let mut trail = Trail::new(1.5);
+        let mut way = trail.unknown_way();
+        for time in 0..times {
+            let goes = time % 2 == 0;
+            let (start, x) = if goes { (0.0, 1.0) } else { (length, -1.0) };
+            let heading = (x, 0.0);
+            let look = Look { place: (start, 0.0), heading, height: time as f64, slope: 1.0 / length, way };
+            for step in 0..=(length as u32) {
+                trail.keep(&look.ahead(f64::from(step)));
+            }
+            way += length;
+        }
+        (trail, way)
+    }
+
+    #[test]
+    fn what_goes_the_same_way_is_found_and_what_is_highest() {
+        let (trail, way) = to_and_fro(40.0, 2);
+        let here = Look { place: (20.2, 0.5), heading: (1.0, 0.0), height: 2.5, slope: 0.0, way: way + 20.0 };
+        let height = |look: &Look| (look.height_abreast_of(here.place) * 1000.0).round();
+        assert_eq!(trail.nearest(&here, 0.0).map(height), Some(505.0));
+        let back = Look { heading: (-1.0, 0.01), ..here };
+        assert_eq!(trail.nearest(&back, 0.0).map(height), Some(1495.0));
+        assert_eq!(trail.highest(&here, 0.0).map(|height| (height * 1000.0).round()), Some(1495.0));
+        assert_eq!(trail.nearest(&here, way), None, "before this thread began");
+        let beside = Look { place: (20.2, 1.8), ..here };
+        assert_eq!(trail.nearest(&beside, 0.0), None, "another wall");
+        let early = Look { way: way - 55.0, ..here };
+        assert_eq!(trail.nearest(&early, 0.0), None, "no turn in between");
+    }
+
+    #[test]
+    fn it_does_not_grow_for_ever() {
+        let mut trail = Trail::new(1.5);
+        let look = Look { place: (0.0, 0.0), heading: (0.6, 0.8), height: 0.0, slope: 0.0, way: 0.0 };
+        for step in 0..200_000 {
+            trail.keep(&look.ahead(f64::from(step) * 2.0));
+        }
+        assert_eq!(trail.slots.len(), MOST_SLOTS);
+        for place in [(f64::NAN, 0.0), (f64::INFINITY, -1e300)] {
+            trail.keep(&Look { place, ..look });
+            assert_eq!(trail.nearest(&Look { place, ..look }, 0.0), None);
+        }
+    }
+}

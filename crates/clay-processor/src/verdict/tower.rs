@@ -3,7 +3,6 @@
 use super::findings::Findings;
 use super::limits::{LayerHeights, Limits};
 use super::rule::Rule;
-use crate::helix::middle;
 use crate::motion::EPSILON_Z;
 use crate::report::{Model, Pitch, Run};
 
@@ -77,7 +76,8 @@ fn usual_step(storeys: &[Storey]) -> Option<f64> {
         .filter_map(|pair| Some(pair.last()?.bottom - pair.first()?.top))
         .filter(|step| *step > EPSILON_Z)
         .collect();
-    middle(&mut steps)
+    let middle = steps.len() / 2;
+    (!steps.is_empty()).then(|| *steps.select_nth_unstable_by(middle, f64::total_cmp).1)
 }
 
 fn step(below: &Storey, above: &Storey, limits: &Limits, usual: Option<f64>, findings: &mut Findings) {
