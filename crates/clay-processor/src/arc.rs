@@ -61,12 +61,6 @@ impl Arc {
         Some(Self { centre, sweep: turn.sign() * angle, length })
     }
 
-    /// Where it heads at its start; as long as its radius.
-    pub(crate) fn heading(&self) -> (f64, f64) {
-        let (i, j) = self.centre;
-        if self.sweep < 0.0 { (-j, i) } else { (j, -i) }
-    }
-
     /// Points on it from `start`, the last one being its end `by` away: chords of at most 5°, so that what lies
     /// between them and the arc is less than a thousandth of the radius.
     pub(crate) fn points(self, start: (f64, f64), by: (f64, f64)) -> impl Iterator<Item = (f64, f64)> {
@@ -129,8 +123,6 @@ mod tests {
             let along: f64 =
                 points.windows(2).map(|two| (two[1].0 - two[0].0).hypot(two[1].1 - two[0].1)).sum();
             assert!((along / arc.length - 1.0).abs() < 0.06, "{text}: {along} of {}", arc.length);
-            near(arc.heading().0, 0.0);
-            assert_eq!(arc.heading().1 > 0.0, turn == Turn::Counter, "{text}");
         }
     }
 }

@@ -52,11 +52,13 @@ mod motion;
 mod processor;
 mod report;
 mod spirals;
+mod trail;
 mod verdict;
 
 pub use json::{json, to_json};
 pub use processor::{Options, Processor, process};
 pub use report::{
-    Crossing, Diagonal, DialectNote, Habit, Horizontal, Interruptions, Model, Pitch, Report, Run, Vertical,
+    Crossing, Diagonal, DialectNote, Habit, Horizontal, Interruptions, Model, Pitch, Report, Run, Steep,
+    Vertical,
 };
 pub use verdict::{Bed, Firmware, LayerHeights, Limits, Place, Rule, Severity, Verdict};

@@ -23,11 +23,12 @@ pub(crate) struct Machine {
 }
 
 impl Machine {
-    pub(crate) fn new(motion: Motion, judge: Judge) -> Self {
+    /// A machine that lays beads of this width, mm.
+    pub(crate) fn new(motion: Motion, judge: Judge, bead_width: Option<f64>) -> Self {
         Self {
             model: Model::default(),
             motion,
-            spirals: Spirals::default(),
+            spirals: Spirals::new(bead_width),
             judge,
             extruding_lines: 0,
             hops: Count::default(),
@@ -86,7 +87,9 @@ impl Machine {
             }
             Class::Slope => {
                 self.print(step);
-                self.spirals.slope(index, step);
+                if let Some(rise) = self.spirals.slope(index, step) {
+                    self.judge.turn(rise);
+                }
                 self.lifted = false;
             }
             Class::Travel => {

@@ -72,11 +72,6 @@ impl Move {
     pub(crate) fn squared(&self) -> f64 {
         self.flat_squared + self.rise * self.rise
     }
-
-    /// Where it heads at its start, in XY; of any length.
-    pub(crate) fn heading(&self) -> (f64, f64) {
-        self.arc.as_ref().map_or(self.by, Arc::heading)
-    }
 }
 
 /// What a move is to the clay.

@@ -66,6 +66,7 @@ impl Processor {
             machine: Machine::new(
                 Motion::new(options.e_follows_g90),
                 Judge::new(options.limits, options.e_follows_g90),
+                options.limits.bead_width,
             ),
             habits: Habits::default(),
         }

@@ -117,14 +117,28 @@ pub struct Crossing {
 /// How a spiral climbs.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Pitch {
-    /// How often it goes round.
+    /// How often it goes round: its height in usual turns; 0 if it makes no whole turn.
     pub turns: f64,
-    /// How much it rises in a whole turn on average, mm; nothing if it makes none.
+    /// How much it usually rises in a whole turn, mm; nothing if it makes none.
     pub rise: Option<f64>,
-    /// How much it rises in the steepest whole turn, mm.
-    pub steepest: Option<f64>,
+    /// In how many turns it came back above itself, so that their rise could be measured. Where islands end and walls
+    /// lean by nearly a bead a turn, it does not.
+    pub measured: usize,
+    /// Where it lies highest above the turn below, for more than a corner; nothing if it never passes above itself.
+    pub steepest: Option<Steep>,
     /// Z at its end, mm; nothing if it is unknown.
     pub top: Option<f64>,
+}
+
+/// A place in a spiral.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steep {
+    /// How far the thread lies above the turn below it, mm.
+    pub rise: f64,
+    /// The line.
+    pub index: usize,
+    /// Z at the end of the line, mm; nothing if it is unknown.
+    pub height: Option<f64>,
 }
 
 /// A difference between the two models and the habit of the file that causes it.

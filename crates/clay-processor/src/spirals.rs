@@ -8,13 +8,20 @@ use crate::helix::Helix;
 use crate::layers::{Group, Layers, Mark};
 use crate::motion::{EPSILON_Z, Move};
 use crate::report::{Pitch, Run};
+use crate::trail::Trail;
 
 /// A spiral may stay at one height for so long, mm: Z is written with two or three decimals, so in a gentle climb some
 /// lines repeat the one before.
-const LONGEST_FLAT: f64 = 2.0;
+pub(crate) const LONGEST_FLAT: f64 = 2.0;
+
+/// How wide a bead lies if nobody says it, and the finest that is told apart from its neighbour, mm.
+const BEAD: f64 = 2.0;
+const FINEST: f64 = 1.0;
+/// A thread lies on itself if its middle lies no farther beside it than so many beads. Two walls of one pot do not.
+const BESIDE: f64 = 0.75;
 
 /// The spirals and layers found so far.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub(crate) struct Spirals {
     pub(crate) found: Vec<Run>,
     /// How each of them climbs.
@@ -24,6 +31,7 @@ pub(crate) struct Spirals {
     pub(crate) rounded: Count,
     pub(crate) resets: Count,
     climb: Option<Climb>,
+    trail: Trail,
 }
 
 /// Lines from one change of Z to the last.
@@ -34,9 +42,7 @@ struct Climb {
     last: usize,
     height: Option<f64>,
     rise: f64,
-    /// Up to the last change of Z, and with the flat lines behind it.
     helix: Helix,
-    helix_on: Helix,
     slopes: usize,
     rounded: Count,
     resets: Count,
@@ -47,6 +53,19 @@ struct Climb {
 }
 
 impl Spirals {
+    /// None yet, of beads of this width, mm.
+    pub(crate) fn new(bead_width: Option<f64>) -> Self {
+        Self {
+            found: Vec::new(),
+            pitches: Vec::new(),
+            layers: Layers::default(),
+            rounded: Count::default(),
+            resets: Count::default(),
+            climb: None,
+            trail: Trail::new(BESIDE * bead_width.unwrap_or(BEAD).max(FINEST)),
+        }
+    }
+
     /// A line printed at one height. Returns whether it goes on with a layer.
     #[inline(always)]
     pub(crate) fn flat(&mut self, index: usize, step: &Move) -> bool {
@@ -65,21 +84,26 @@ impl Spirals {
             flats.last = index;
             flats.lines += 1;
             climb.flat_length += step.flat_length();
-            climb.helix_on.go_on(step);
             if climb.flat_length > LONGEST_FLAT {
                 self.interrupt();
+            } else {
+                climb.helix.go_on(&mut self.trail, index, step);
             }
         }
     }
 
-    /// A line printed up or down.
+    /// A line printed up or down. Returns the rise of a turn that it completes.
     #[inline]
-    pub(crate) fn slope(&mut self, index: usize, step: &Move) {
-        match &mut self.climb {
-            Some(climb) => climb.go_on(index, step),
-            None => self.climb = Some(Climb::new(self.layers.mark(), index, step)),
-        }
+    pub(crate) fn slope(&mut self, index: usize, step: &Move) -> Option<f64> {
+        let turn = match &mut self.climb {
+            Some(climb) => climb.go_on(&mut self.trail, index, step),
+            None => {
+                self.climb = Some(Climb::new(self.layers.mark(), &mut self.trail, index, step));
+                None
+            }
+        };
         self.layers.slope(index, step.to);
+        turn
     }
 
     /// The position is set anew.
@@ -109,12 +133,12 @@ impl Spirals {
             && climb.slopes >= 2
             && climb.rise > EPSILON_Z
         {
-            self.take_back(&climb);
+            self.take_back(climb);
         }
     }
 
     /// The climb is a spiral, not layers.
-    fn take_back(&mut self, climb: &Climb) {
+    fn take_back(&mut self, climb: Climb) {
         self.layers.return_to(climb.before);
         self.layers.end();
         if let Some(flats) = climb.flats {
@@ -122,7 +146,7 @@ impl Spirals {
         }
         self.rounded.add_all(&climb.rounded);
         self.resets.add_all(&climb.resets);
-        self.pitches.push(climb.helix.pitch());
+        self.pitches.push(climb.helix.pitch(&self.trail));
         self.found.push(Run { start_index: climb.first, end_index: climb.last, height: climb.height });
     }
 
@@ -133,9 +157,9 @@ impl Spirals {
 }
 
 impl Climb {
-    fn new(before: Mark, index: usize, step: &Move) -> Self {
-        let mut helix = Helix::default();
-        helix.go_on(step);
+    fn new(before: Mark, trail: &mut Trail, index: usize, step: &Move) -> Self {
+        let mut helix = Helix::new(trail);
+        helix.go_on(trail, index, step);
         Self {
             before,
             first: index,
@@ -143,7 +167,6 @@ impl Climb {
             height: step.to,
             rise: step.climb,
             helix,
-            helix_on: helix,
             slopes: 1,
             rounded: Count::default(),
             resets: Count::default(),
@@ -154,11 +177,9 @@ impl Climb {
     }
 
     #[inline]
-    fn go_on(&mut self, index: usize, step: &Move) {
+    fn go_on(&mut self, trail: &mut Trail, index: usize, step: &Move) -> Option<f64> {
         self.last = index;
         self.rise += step.climb;
-        self.helix_on.go_on(step);
-        self.helix = self.helix_on;
         self.slopes += 1;
         if let Some(flats) = self.flats.take() {
             self.rounded.add_all(&Count { count: flats.lines, first: flats.first });
@@ -166,6 +187,7 @@ impl Climb {
         }
         self.resets.add_all(&self.flat_resets);
         self.flat_resets = Count::default();
+        self.helix.go_on(trail, index, step)
     }
 }
 
@@ -241,7 +263,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(2000))]
         #[test]
         fn line_by_line_finds_what_the_definition_says(events in events()) {
-            let mut spirals = Spirals::default();
+            let mut spirals = Spirals::new(None);
             let mut height = 0;
             let mut heights = Vec::new();
             for (index, event) in events.iter().enumerate() {
@@ -254,7 +276,9 @@ mod tests {
                     Event::Flat(length) => {
                         spirals.flat(index, &Move::made_up(f64::from(length) / 2.0, 0.0, at));
                     }
-                    Event::Slope(rise) => spirals.slope(index, &Move::made_up(1.0, f64::from(rise), at)),
+                    Event::Slope(rise) => {
+                        spirals.slope(index, &Move::made_up(1.0, f64::from(rise), at));
+                    }
                     Event::Travel => spirals.interrupt(),
                 }
             }

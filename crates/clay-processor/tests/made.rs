@@ -6,7 +6,7 @@ use std::fmt::Write;
 use clay_processor::{Rule, process};
 use proptest::prelude::*;
 
-/// The outline of a pot: a lobed ring, so that its turns are no circles and its bends go both ways.
+/// The outline of a pot: a lobed ring, so that its turns are no circles and its bends go both ways. It leans and twists.
 #[derive(Clone, Copy, Debug)]
 struct Pot {
     radius: f64,
@@ -14,20 +14,50 @@ struct Pot {
     depth: f64,
     corners: usize,
     clockwise: bool,
+    /// To the side, mm in a turn.
+    lean: f64,
+    /// As far as the outline goes along itself at its middle radius, mm in a turn.
+    twist: f64,
 }
 
 fn pot() -> impl Strategy<Value = Pot> {
-    (15.0..60.0, 2_u32..7, 0.0..0.35, 40_usize..160, any::<bool>()).prop_map(
-        |(radius, lobes, depth, corners, clockwise)| Pot { radius, lobes, depth, corners, clockwise },
-    )
+    let outline = (15.0..60.0, 2_u32..7, 0.0..0.35, 40_usize..160, any::<bool>());
+    (outline, 0.0..0.5, 0.0..0.5).prop_map(|((radius, lobes, depth, corners, clockwise), lean, twist)| Pot {
+        radius,
+        lobes,
+        depth,
+        corners,
+        clockwise,
+        lean,
+        twist,
+    })
 }
 
 impl Pot {
-    fn corner(&self, step: usize) -> (f64, f64) {
+    /// A corner of its base, leant and twisted by so many turns.
+    fn corner_above(&self, step: usize, turns: f64) -> (f64, f64) {
         let turn = TAU * (step % self.corners) as f64 / self.corners as f64;
         let angle = if self.clockwise { -turn } else { turn };
         let radius = self.radius * (1.0 + self.depth * (f64::from(self.lobes) * angle).cos());
-        (100.0 + radius * angle.cos(), 100.0 + radius * angle.sin())
+        let angle = angle + self.twist / self.radius * turns;
+        (100.0 + self.lean * turns + radius * angle.cos(), 100.0 + radius * angle.sin())
+    }
+
+    fn corner(&self, step: usize) -> (f64, f64) {
+        self.corner_above(step, 0.0)
+    }
+
+    /// A spiral that begins at `pitch`, each of whose turns rises as it is told.
+    fn spiral(&self, pen: &mut Pen, pitch: f64, rises: &[f64]) {
+        pen.travel(self.corner(0), pitch);
+        let mut z = pitch;
+        for (turn, rise) in rises.iter().enumerate() {
+            for step in 1..=self.corners {
+                z += rise / self.corners as f64;
+                let turns = turn as f64 + step as f64 / self.corners as f64;
+                pen.lay(self.corner_above(step, turns), Some(z));
+            }
+        }
     }
 }
 
@@ -85,11 +115,8 @@ proptest! {
         pot in pot(), hand in hand(), turns in 2_usize..12, pitch in 0.4_f64..3.0,
     ) {
         let mut pen = Pen::new(hand);
-        pen.travel(pot.corner(0), pitch);
-        let first = pen.lines();
-        for step in 1..=turns * pot.corners {
-            pen.lay(pot.corner(step), Some(pitch + pitch * step as f64 / pot.corners as f64));
-        }
+        let first = pen.lines() + 1;
+        pot.spiral(&mut pen, pitch, &vec![pitch; turns]);
         let last = pen.lines() - 1;
         let report = process(pen.text.as_bytes());
         let ends: Vec<_> = report.machine.spirals.iter().map(|run| (run.start_index, run.end_index)).collect();
@@ -97,11 +124,31 @@ proptest! {
         prop_assert!(report.machine.layers.is_empty());
         prop_assert_eq!(report.interruptions.count, 0);
         let found = report.pitches[0];
-        // The last corner is not turned any more.
-        prop_assert!((found.turns - turns as f64).abs() < 0.25, "{:?}", found);
-        // Where lobes bend to and fro, a turn is complete a little early or late.
-        prop_assert!((found.rise.expect("whole turns") / pitch - 1.0).abs() < 0.2 / turns as f64, "{:?}", found);
+        prop_assert!((found.turns - turns as f64).abs() < 0.02 * turns as f64, "{:?}", found);
+        prop_assert!((found.rise.expect("whole turns") / pitch - 1.0).abs() < 0.02, "{:?}", found);
         prop_assert!(report.verdicts.iter().all(|verdict| verdict.rule == Rule::InAir), "{:?}", report.verdicts);
+    }
+
+    #[test]
+    fn a_turn_that_rises_too_much_is_found(
+        pot in pot(), hand in hand(), turns in 6_usize..12, odd in 1_usize..5, more in 1.8_f64..2.6,
+        pitch in 0.6_f64..3.0,
+    ) {
+        let mut rises = vec![pitch; turns];
+        rises[odd] *= more;
+        let mut pen = Pen::new(hand);
+        let first = pen.lines() + 1;
+        pot.spiral(&mut pen, pitch, &rises);
+        let report = process(pen.text.as_bytes());
+        let found = report.pitches[0];
+        prop_assert!((found.rise.expect("whole turns") / pitch - 1.0).abs() < 0.02, "{:?}", found);
+        let steepest = found.steepest.expect("it lies above itself");
+        prop_assert!((steepest.rise / (pitch * more) - 1.0).abs() < 0.1, "{:?}", found);
+        let turn = (steepest.index - first) / pot.corners;
+        prop_assert!(turn == odd || turn == odd + 1, "in turn {turn}: {:?}", found);
+        let verdict = report.verdicts.iter().find(|verdict| verdict.rule == Rule::SpiralPitch);
+        let place = verdict.expect("the potter is told").place.expect("where");
+        prop_assert_eq!(place.index, steepest.index);
     }
 
     #[test]

@@ -85,10 +85,10 @@ fn described(name: &str, report: &Report) -> String {
         let _ = writeln!(text, "  {who:8} {}", counts(model));
     }
     for (spiral, pitch) in report.machine.spirals.iter().zip(&report.pitches) {
-        let _ = write!(text, "  spiral from line {}: {:.1} turns", spiral.start_index + 1, pitch.turns);
+        let _ = write!(text, "  spiral from line {}: ", spiral.start_index + 1);
         let _ = match pitch.rise {
-            Some(rise) => writeln!(text, ", {rise:.3} mm each"),
-            None => writeln!(text),
+            Some(rise) => writeln!(text, "{:.1} turns, {rise:.3} mm each", pitch.turns),
+            None => writeln!(text, "no whole turn above itself"),
         };
     }
     for note in &report.notes {

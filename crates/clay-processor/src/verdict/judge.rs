@@ -6,6 +6,7 @@ use super::ending::End;
 use super::findings::Findings;
 use super::firmware::Control;
 use super::ground::Ground;
+use super::layer_height::LayerHeight;
 use super::limits::Limits;
 use super::pump::Pump;
 use super::repeats::Repeats;
@@ -16,8 +17,6 @@ use crate::breaks::Breaks;
 use crate::motion::{Class, EPSILON_Z, Motion, Move};
 use crate::report::{Interruptions, Model, Pitch};
 
-/// Clay that falls so many layer heights falls in the air.
-const AIR: f64 = 3.0;
 /// A bead that hangs over so many cells of the map hangs in the air: less is an overhang, or a corner.
 const HANGING: f64 = 4.0;
 
@@ -33,7 +32,7 @@ pub(crate) struct Judge {
     repeats: Repeats,
     /// Where the nozzle is, from the end stops.
     at: Option<(f64, f64)>,
-    layer: LayerSize,
+    layer: LayerHeight,
     /// Clay has been laid.
     printed: bool,
     /// The highest clay, and the last, as far as heights are known.
@@ -46,14 +45,6 @@ pub(crate) struct Judge {
     spot: Option<Spot>,
     /// `G92` has called the height otherwise amid the print: the heights of layers cannot be compared any more.
     renamed: bool,
-}
-
-/// How high a layer is, as far as it can be told.
-#[derive(Clone, Copy, Debug)]
-struct LayerSize {
-    height: f64,
-    /// Somebody has said it, or clay has been laid at two heights.
-    known: bool,
 }
 
 /// Where clay was laid last. Fine curves lay many strokes into one cell of the map, and only the first of them finds
@@ -85,7 +76,7 @@ impl Judge {
             pump: Pump::new(&limits),
             repeats: Repeats::default(),
             at: None,
-            layer: LayerSize { height: known.unwrap_or(0.0), known: known.is_some() },
+            layer: LayerHeight::new(known),
             printed: false,
             highest: None,
             last: None,
@@ -147,7 +138,7 @@ impl Judge {
         self.rise(index, step, altitude);
         let Some(to) = place else { return self.look(index, true, None, altitude) };
         let Some(from) = self.at else {
-            self.ground.lay(to, altitude, self.layer.height / 2.0);
+            self.ground.lay(to, altitude, self.layer.same());
             return self.look(index, true, Some(to), altitude);
         };
         match step.arc {
@@ -180,7 +171,7 @@ impl Judge {
             }
             return;
         }
-        let same = self.layer.height / 2.0;
+        let same = self.layer.same();
         let mut before = 0.0;
         for (place, share) in self.ground.along(from, to) {
             if class == Class::Flat
@@ -203,12 +194,10 @@ impl Judge {
     /// Whether clay that is laid here falls.
     #[inline]
     fn hangs(&self, place: (f64, f64), altitude: f64) -> bool {
-        let deep = altitude - AIR * self.layer.height;
-        let same = self.layer.height / 2.0;
+        let Some(deep) = self.layer.air_below(altitude) else { return false };
+        let same = self.layer.same();
         let falls = |below: Option<f64>| below.is_none_or(|below| below < deep);
-        // What lies on the bed, or little above it, does not fall.
-        deep > 0.0
-            && falls(self.ground.below(place, altitude, same))
+        falls(self.ground.below(place, altitude, same))
             && falls(self.ground.below_near(place, altitude, same))
     }
 
@@ -221,21 +210,26 @@ impl Judge {
     #[inline(always)]
     fn rise(&mut self, index: usize, step: &Move, altitude: f64) {
         self.last = Some(altitude);
-        let Some(highest) = self.highest else {
-            self.highest = Some(altitude);
-            self.layer.height = self.layer.height.max(altitude);
-            return;
-        };
-        let rise = altitude - highest;
-        if rise <= EPSILON_Z {
-            return;
+        if self.layer.may_rise(step, altitude) {
+            self.climb(index, step, altitude);
         }
-        if self.layer.known && rise > AIR * self.layer.height {
-            self.highest = Some(altitude);
-            return self.findings.add(Rule::LiftedOff, index, step.to, rise);
+    }
+
+    #[inline(never)]
+    fn climb(&mut self, index: usize, step: &Move, altitude: f64) {
+        let rise = self.highest.map_or(0.0, |highest| altitude - highest);
+        self.highest = Some(self.highest.map_or(altitude, |highest| highest.max(altitude)));
+        if self.layer.is_lifted(rise) {
+            self.layer.skip_to(altitude);
+            self.findings.add(Rule::LiftedOff, index, step.to, rise);
+        } else {
+            self.layer.rise(step, altitude);
         }
-        self.highest = Some(altitude);
-        self.layer = LayerSize { height: self.layer.height.max(rise), known: true };
+    }
+
+    /// A spiral has come round and lies so much higher.
+    pub(crate) fn turn(&mut self, rise: f64) {
+        self.layer.turn(rise);
     }
 
     #[cold]
@@ -300,15 +294,15 @@ impl Judge {
     /// Goes straight to a place without clay. Returns how far it goes over open air.
     fn fly(&mut self, index: usize, way: &mut Way, to: (f64, f64), share_of_way: f64) -> f64 {
         let Some(last) = self.last else { return 0.0 };
-        let deep = last - AIR * self.layer.height;
-        let same = self.layer.height / 2.0;
+        let deep = self.layer.air_below(last);
+        let same = self.layer.same();
         let (mut air, mut before) = (0.0, 0.0);
         for (place, share) in self.ground.along(way.from, to) {
             let altitude = way.start + way.rise * (way.done + share * share_of_way);
             if let Some(top) = self.ground.top(place).filter(|top| *top > altitude + same) {
                 self.findings.add(Rule::IntoClay, index, Some(altitude), top - altitude);
             }
-            if deep > 0.0 && self.ground.top_near(place).is_none_or(|top| top < deep) {
+            if deep.is_some_and(|deep| self.ground.top_near(place).is_none_or(|top| top < deep)) {
                 air += (share - before) * share_of_way * way.length;
             }
             before = share;

@@ -8,6 +8,7 @@ mod findings;
 mod firmware;
 mod ground;
 mod judge;
+mod layer_height;
 mod limits;
 mod pump;
 mod repeats;

@@ -1,7 +1,7 @@
 //! How the layers and spirals of a whole file stand on each other.
 
 use super::findings::Findings;
-use super::limits::Limits;
+use super::limits::{LayerHeights, Limits};
 use super::rule::Rule;
 use crate::motion::EPSILON_Z;
 use crate::report::{Model, Pitch, Run};
@@ -11,8 +11,9 @@ const TOLERANCE: f64 = 0.02;
 /// A step of more than so many layers is a gap.
 const GAP: f64 = 1.5;
 
-/// After so many turns a spiral's pitch is known well.
+/// After so many turns a spiral's pitch is known well, if it could be measured in such a share of them.
 const FEWEST_TURNS: f64 = 2.0;
+const SURE: f64 = 0.75;
 
 /// A layer or a spiral.
 struct Storey {
@@ -94,12 +95,15 @@ fn step(below: &Storey, above: &Storey, limits: &Limits, usual: Option<f64>, fin
     }
 }
 
-/// A spiral that rises as much as a layer in every turn is as it should be. In its first turns the rise of a lobed pot
-/// is not known well enough to tell.
+/// A spiral that rises as much as a layer in every turn is as it should be. In its first turns it may still come up from
+/// the base.
 fn climb(storey: &Storey, pitch: &Pitch, limits: &Limits, findings: &mut Findings) {
-    let (Some(rise), Some(steepest)) = (pitch.rise, pitch.steepest) else { return };
-    let is_off = |layers: super::LayerHeights| (rise - layers.rest).abs() > 0.1 * layers.rest;
-    if steepest > GAP * rise || pitch.turns > FEWEST_TURNS && limits.layers.is_some_and(is_off) {
-        findings.add(Rule::SpiralPitch, storey.index, Some(storey.bottom), steepest.max(rise));
+    let Some(rise) = pitch.rise else { return };
+    let is_known = pitch.turns > FEWEST_TURNS && pitch.measured as f64 > SURE * pitch.turns;
+    let is_off = |layers: LayerHeights| (rise - layers.rest).abs() > 0.1 * layers.rest;
+    if let Some(steep) = pitch.steepest.filter(|steep| steep.rise > GAP * rise) {
+        findings.add(Rule::SpiralPitch, steep.index, steep.height, steep.rise);
+    } else if is_known && limits.layers.is_some_and(is_off) {
+        findings.add(Rule::SpiralPitch, storey.index, Some(storey.bottom), rise);
     }
 }
