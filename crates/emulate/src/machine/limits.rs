@@ -1,5 +1,6 @@
 //! What the machine can do, and what a file says about that.
 
+use crate::motion::Smoothing;
 use gcode::{Command, Flavor, Quantity};
 use std::f64::consts::SQRT_2;
 
@@ -44,6 +45,8 @@ pub struct Limits {
     pub retract: f64,
     /// Corners; nothing leaves them to the planner.
     pub corner: Option<Corner>,
+    /// How much of short moves is cruised through; nothing leaves it to the planner.
+    pub smoothing: Option<Smoothing>,
 }
 
 impl Default for Limits {
@@ -56,6 +59,7 @@ impl Default for Limits {
             travel: f64::INFINITY,
             retract: f64::INFINITY,
             corner: None,
+            smoothing: None,
         }
     }
 }
@@ -66,6 +70,11 @@ impl Limits {
     pub fn with_acceleration(mut self, acceleration: f64) -> Self {
         (self.print, self.travel, self.retract) = (acceleration, acceleration, acceleration);
         self
+    }
+
+    /// Whether an axis has a limit of its own.
+    pub(crate) fn has_axes(&self) -> bool {
+        self.axis_speed.iter().chain(&self.axis_acceleration).any(|limit| limit.is_finite())
     }
 
     /// Takes what a command says about limits, in the words of a flavor.
@@ -94,6 +103,8 @@ impl Limits {
                     self.corner = Some(Corner::SquareSpeed(value))
                 }
                 Quantity::AxisJerk(_) => {}
+                Quantity::CruiseRatio => self.smoothing = Some(Smoothing::CruiseRatio(value)),
+                Quantity::AccelerationToDeceleration => self.smoothing = Some(Smoothing::AccelToDecel(value)),
             }
         }
     }
