@@ -173,7 +173,7 @@ fn by_moves(name: &str) -> (Operation<'static>, Vec<Vec<f64>>) {
 
 #[test]
 fn every_move_has_the_speeds_and_the_time_of_the_oracle() {
-    for name in ["a_square", "d_arcs", "g_corners"] {
+    for name in ["a_square", "d_arcs", "f_modes", "g_corners"] {
         let (operation, rows) = by_moves(name);
         let moves: Vec<_> = operation.process_data().iter().filter(|row| row.step_distance > 0.0).collect();
         assert_eq!(moves.len(), rows.len(), "{name}");
