@@ -197,7 +197,8 @@ fn has_example((path, text): &(PathBuf, String), name: &str) -> bool {
 #[test]
 fn every_row_of_the_emulator_has_an_example_and_a_test() {
     let crates = ["gcode", "emulate", "columns", "clayforge"].map(|name| root().join("crates").join(name));
-    let sources: Vec<_> = crates.iter().chain([&root().join("tests")]).flat_map(|path| sources(path)).collect();
+    let sources: Vec<_> =
+        crates.iter().chain([&root().join("tests")]).flat_map(|path| sources(path)).collect();
     let guide = text_of(&root().join("crates/emulate/src/guide.md"));
     let has_chapter = |title: &str| {
         let chapter = guide.split("\n## ").find_map(|chapter| chapter.strip_prefix(title));

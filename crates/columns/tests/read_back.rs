@@ -53,7 +53,9 @@ fn assert_same(batches: &[RecordBatch], table: &Table<'_>) {
                     let bits = |value: &f64| (value + 0.0).to_bits();
                     found.iter().map(|value| value.to_bits()).eq(values[rows.clone()].iter().map(bits))
                 }
-                Column::U32(values) => array.as_primitive::<UInt32Type>().values()[..] == values[rows.clone()],
+                Column::U32(values) => {
+                    array.as_primitive::<UInt32Type>().values()[..] == values[rows.clone()]
+                }
                 Column::Word(values) => words(array) == values[rows.clone()],
             };
             assert!(same, "{name} in rows {rows:?}");

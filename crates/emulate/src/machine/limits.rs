@@ -1,6 +1,6 @@
 //! What the machine can do, and what a file says about that.
 
-use crate::motion::Smoothing;
+use crate::motion::{Smoothing, least};
 use gcode::{Command, Flavor, Quantity};
 use std::f64::consts::SQRT_2;
 
@@ -72,11 +72,6 @@ impl Limits {
         self
     }
 
-    /// Whether an axis has a limit of its own.
-    pub(crate) fn has_axes(&self) -> bool {
-        self.axis_speed.iter().chain(&self.axis_acceleration).any(|limit| limit.is_finite())
-    }
-
     /// Takes what a command says about limits, in the words of a flavor.
     pub fn obey(&mut self, command: &Command<'_>, flavor: &Flavor) {
         let knows = |quantity| flavor.limits.iter().any(|limit| limit.quantity == quantity);
@@ -114,4 +109,17 @@ fn set(axes: &mut [f64; 4], axis: u8, value: f64) {
     if let Some(limit) = axes.get_mut(usize::from(axis)) {
         *limit = value;
     }
+}
+
+/// The least of the limits of axes that have these shares of what is limited: for each mm of way so many mm of the axis.
+/// An axis without a share has no say.
+#[inline]
+pub(crate) fn along(limits: &[f64; 4], shares: &[f64; 4]) -> f64 {
+    let limits = limits.iter().zip(shares).map(|(limit, share)| limit / share);
+    limits.fold(f64::INFINITY, least)
+}
+
+/// Whether any of the limits is one.
+pub(crate) fn any(limits: &[f64; 4]) -> bool {
+    limits.iter().any(|limit| limit.is_finite())
 }

@@ -1,6 +1,6 @@
 //! From command to command: what each does, and how long it takes.
 
-use super::limits::Limits;
+use super::limits::{Limits, along, any};
 use super::record::{More, Record};
 use super::state::{Deposit, Effect, State, Way};
 use super::{Machine, feed::Feed};
@@ -19,8 +19,8 @@ pub(crate) struct Walk<'m, R: Record> {
     machine: &'m Machine,
     state: State,
     limits: Limits,
-    /// Whether any axis has a limit of its own.
-    has_axes: bool,
+    /// Whether any axis has a limit of speed, and of acceleration, of its own.
+    has_axes: [bool; 2],
     /// mm³ of one E; `M200` changes it.
     mm3_per_unit: f64,
     planner: Planner<R::Tag>,
@@ -39,7 +39,7 @@ impl<'m, R: Record> Walk<'m, R> {
         Ok(Self {
             machine,
             state: State::new(machine.start, machine.flavor.g90_affects_e, machine.bare_g92, feed),
-            has_axes: limits.has_axes(),
+            has_axes: has_axes(&limits),
             limits,
             mm3_per_unit: machine.extruder.mm3_per_unit(),
             planner: Planner::default(),
@@ -100,7 +100,7 @@ impl<'m, R: Record> Walk<'m, R> {
     fn obey_settings(&mut self, command: &Command<'_>) {
         if self.machine.obeys_limits && matches!(command, Command::M { .. } | Command::Config { .. }) {
             self.limits.obey(command, &self.machine.flavor);
-            self.has_axes = self.limits.has_axes();
+            self.has_axes = has_axes(&self.limits);
         }
         if let Command::M { tenths: 2000, words } = command
             && let Some(diameter) = words.get(b'D')
@@ -207,7 +207,7 @@ impl<'m, R: Record> Walk<'m, R> {
             Action::Extrude => limits.retract,
             _ => limits.travel,
         };
-        if self.has_axes {
+        if self.has_axes != [false; 2] {
             self.limit_axes(step, is_arc);
         }
         // Smoothing is for the nozzle; what the extruder does alone shakes nothing.
@@ -222,19 +222,24 @@ impl<'m, R: Record> Walk<'m, R> {
     }
 
     /// What the limits of single axes leave.
+    #[inline]
     fn limit_axes(&self, step: &mut Move, is_arc: bool) {
         let ([x, y, z], end) = (step.tangent_in, step.tangent_out);
         // An arc may point anywhere in its plane between its ends.
         let flat = if is_arc { libm::hypot(x, y).max(libm::hypot(end[0], end[1])) } else { 0.0 };
         let shares = [x.abs().max(flat), y.abs().max(flat), z.abs().max(end[2].abs()), step.extruder.abs()];
-        let axes = self.limits.axis_speed.iter().zip(&self.limits.axis_acceleration);
-        for (share, (speed, acceleration)) in shares.into_iter().zip(axes) {
-            if share > 0.0 {
-                step.target = least(step.target, speed / share);
-                step.acceleration = least(step.acceleration, acceleration / share);
-            }
+        let [has_speeds, has_accelerations] = self.has_axes;
+        if has_speeds {
+            step.target = least(step.target, along(&self.limits.axis_speed, &shares));
+        }
+        if has_accelerations {
+            step.acceleration = least(step.acceleration, along(&self.limits.axis_acceleration, &shares));
         }
     }
+}
+
+fn has_axes(limits: &Limits) -> [bool; 2] {
+    [&limits.axis_speed, &limits.axis_acceleration].map(any)
 }
 
 #[inline]
