@@ -87,7 +87,7 @@ fn a_long_table_is_written_in_batches_with_one_dictionary() {
     assert!(batches.len() > 2);
     assert_same(&batches, &table);
     assert_same(&parquet(&table), &table);
-    assert_eq!(words(batches[batches.len() - 1].column(1)).last(), Some(&"IncrementalPosition"));
+    assert_eq!(words(batches[batches.len() - 1].column(1)).last(), Some(&"Comment"));
 }
 
 #[test]

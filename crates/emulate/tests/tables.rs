@@ -221,3 +221,18 @@ fn the_legacy_file_is_made_as_the_format_says() {
             .concat();
     assert_eq!(&file[..expected.len()], expected);
 }
+
+#[test]
+fn a_part_without_deposits_is_a_file_all_the_same() {
+    let operation = emulated(b"G1 X10 F600\n");
+    let part = AdditivePart::new(&operation, BEAD, [0.0, 0.0, 1.0]).expect("a sound bead");
+    let mesh = PolyData::of(&part, &[]).expect("no scalars");
+    let mut file = Vec::new();
+    mesh.write_vtk(&mut file).expect("memory takes all");
+    let text = String::from_utf8_lossy(&file);
+    // VTK 9.7 refuses `LINES 0 0`.
+    assert!(
+        text.contains("POINTS 0 float") && text.contains("CELL_DATA 0") && !text.contains("LINES"),
+        "{text}"
+    );
+}

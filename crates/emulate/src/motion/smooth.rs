@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn moves_to_and_fro_have_the_speed_of_the_formula() {
         let side = 0.2;
-        let at = |index: usize| [index as f64 * side, if index % 2 == 0 { 0.0 } else { side }, 0.0];
+        let at = |index: usize| [index as f64 * side, if index.is_multiple_of(2) { 0.0 } else { side }, 0.0];
         let points: Vec<_> = (1..200).map(|index| (at(index), 100.0)).collect();
         let plain = plan(Smoothing::CruiseRatio(0.0), &points, 1);
         let smooth = plan(Smoothing::CruiseRatio(0.5), &points, 1);
