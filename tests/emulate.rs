@@ -76,6 +76,19 @@ fn the_json_has_the_keys_that_scripts_read() {
 }
 
 #[test]
+fn a_machine_may_cruise_through_short_moves() {
+    let room = Room::new();
+    room.put("print.gcode", "G91\nG1 X1.5 F6000\n").put("klipper.toml", "[motion]\ncruise_ratio = 0.5\n");
+    let time = |machine: &str| {
+        number(&json(&room, &["emulate", "print.gcode", "--machine", machine, "--json"]), "total_time")
+    };
+    // 500 mm/s²: up and down again, and half of the way at the top speed.
+    let top = (250.0f64 * 1.5).sqrt();
+    assert!((time("clay") - 2.0 * (1.5f64 / 500.0).sqrt()).abs() < 1e-9);
+    assert!((time("klipper.toml") - (2.0 * top / 500.0 + 0.75 / top)).abs() < 1e-9);
+}
+
+#[test]
 fn slice_and_emulate_agree_about_the_time() {
     let room = room();
     let report: Json = serde_json::from_str(&text_of(&room.path("cup.json"))).expect("JSON");
@@ -93,6 +106,7 @@ fn slice_and_emulate_agree_about_the_time() {
 fn every_file_is_written_in_its_form() {
     let room = room();
     let words = ["emulate", "cup.gcode", "--csv", "cup.csv", "--events", "cup.events", "--vtk", "cup.vtp"];
+    room.run(&["emulate", "cup.gcode", "--parquet", "cup.parquet", "--arrow", "cup.arrow"]).done();
     room.run(&[&words[..], &["--picture", "cup.svg", "--color", "time", "--view", "layer=3"]].concat())
         .done();
     room.run(&["emulate", "cup.gcode", "--events", "cup.inp", "--vtk", "cup.vtk"]).done();
@@ -115,6 +129,8 @@ fn every_file_is_written_in_its_form() {
     };
     begins("cup.vtp", b"<?xml");
     begins("cup.vtk", b"# vtk DataFile");
+    begins("cup.parquet", b"PAR1");
+    begins("cup.arrow", b"ARROW1");
     let svg = text_of(&room.path("cup.svg"));
     assert!(svg.starts_with("<svg") && svg.trim_end().ends_with("</svg>") && svg.contains(">time<"));
 }

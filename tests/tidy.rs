@@ -70,9 +70,14 @@ fn what_is_below_knows_nothing_of_what_is_above() {
 
 #[test]
 fn what_talks_to_people_and_reads_profiles_has_one_place() {
-    for (dependency, only) in
-        [("toml_edit", "clayforge"), ("clap", "cli"), ("indicatif", "cli"), ("ctrlc", "cli")]
-    {
+    for (dependency, only) in [
+        ("toml_edit", "clayforge"),
+        ("clap", "cli"),
+        ("indicatif", "cli"),
+        ("ctrlc", "cli"),
+        ("arrow-array", "columns"),
+        ("parquet", "columns"),
+    ] {
         for member in members() {
             let found = dependencies(&member).contains(dependency);
             assert!(!found || name_of(&member) == only, "{} depends on {dependency}", name_of(&member));
@@ -154,4 +159,82 @@ fn the_readme_tests_what_the_gate_tests() {
     if readme.exists() {
         assert!(text_of(&readme).contains(test), "README.md has another command to test than .ci/run");
     }
+}
+
+/// The Rust files below a folder, with their texts.
+fn sources(folder: &Path) -> Vec<(PathBuf, String)> {
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("readable").path()) {
+        if entry.is_dir() {
+            found.extend(sources(&entry));
+        } else if entry.extension().is_some_and(|end| end == "rs") {
+            let text = text_of(&entry);
+            found.push((entry, text));
+        }
+    }
+    found
+}
+
+/// Whether an item has an example in its documentation, or a module in its own.
+fn has_example((path, text): &(PathBuf, String), name: &str) -> bool {
+    let lines: Vec<&str> = text.lines().map(str::trim).collect();
+    let declares = |line: &str| {
+        let rest = ["fn", "struct", "enum", "trait"].iter().find_map(|kind| {
+            line.strip_prefix("pub ")?.strip_prefix(kind)?.strip_prefix(' ')?.strip_prefix(name)
+        });
+        rest.is_some_and(|rest| !rest.starts_with(|next: char| next.is_alphanumeric() || next == '_'))
+    };
+    let documented = |index: usize| {
+        let above = lines[..index].iter().rev();
+        let mut comment = above.take_while(|line| line.starts_with("///") || line.starts_with('#'));
+        comment.any(|line| *line == "/// ```")
+    };
+    let is_module = [format!("{name}/mod.rs"), format!("{name}.rs"), format!("{name}/src/lib.rs")];
+    let here = || (0..lines.len()).any(|index| declares(lines[index]) && documented(index));
+    here() || is_module.iter().any(|end| path.ends_with(end)) && lines.contains(&"//! ```")
+}
+
+#[test]
+fn every_row_of_the_emulator_has_an_example_and_a_test() {
+    let crates = ["gcode", "emulate", "columns", "clayforge"].map(|name| root().join("crates").join(name));
+    let sources: Vec<_> =
+        crates.iter().chain([&root().join("tests")]).flat_map(|path| sources(path)).collect();
+    let guide = text_of(&root().join("crates/emulate/src/guide.md"));
+    let has_chapter = |title: &str| {
+        let chapter = guide.split("\n## ").find_map(|chapter| chapter.strip_prefix(title));
+        chapter.is_some_and(|chapter| chapter.starts_with('\n') && chapter.contains("\n```\n"))
+    };
+    let is_test = |name: &str| {
+        let start = format!("fn {name}(");
+        sources.iter().any(|(_, text)| text.contains(&start))
+    };
+    let page = text_of(&root().join("docs/emulation.md"));
+    let rows = page.lines().filter_map(|line| {
+        let cells: Vec<&str> = line.split('|').map(str::trim).collect();
+        let [_, number, _, example, held, _] = cells[..] else { return None };
+        Some((number.parse::<usize>().ok()?, example, held))
+    });
+    let mut count = 0;
+    for (number, example, held) in rows {
+        count += 1;
+        assert_eq!(number, count, "the rows are in order");
+        for part in example.split(", ") {
+            let found = match part.strip_prefix("guide \"") {
+                Some(title) => has_chapter(title.trim_end_matches('"')),
+                None => {
+                    let item = part.strip_prefix("doc-test `").unwrap_or_default().trim_end_matches('`');
+                    let name = item.rsplit("::").next().unwrap_or_default();
+                    !name.is_empty() && sources.iter().any(|source| has_example(source, name))
+                }
+            };
+            assert!(found, "row {number}: there is no example {part}");
+        }
+        let quoted = held.split('`').skip(1).step_by(2);
+        let tests: Vec<&str> = quoted.filter(|name| name.contains('_') && !name.contains('.')).collect();
+        assert!(!tests.is_empty() || held == "the doc-test", "row {number} names no test");
+        for name in tests {
+            assert!(is_test(name), "row {number}: there is no test `{name}`");
+        }
+    }
+    assert_eq!(count, 39);
 }

@@ -315,6 +315,12 @@ pub struct Emulate {
     /// Write a table with a row for each command
     #[arg(long, value_name = "F")]
     pub csv: Option<PathBuf>,
+    /// Write the same table as Parquet
+    #[arg(long, value_name = "F")]
+    pub parquet: Option<PathBuf>,
+    /// Write the same table as an Arrow IPC file
+    #[arg(long, value_name = "F")]
+    pub arrow: Option<PathBuf>,
     /// Write an event series for Abaqus
     #[arg(long, value_name = "F")]
     pub events: Option<PathBuf>,

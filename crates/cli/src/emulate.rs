@@ -116,6 +116,12 @@ fn write_files(emulate: &Emulate, operation: &AdditiveOperation<'_>, part: &Addi
     if let Some(path) = &emulate.csv {
         write(path, |out| Table::of_part(part).write_csv(out))?;
     }
+    if let Some(path) = &emulate.parquet {
+        write(path, |out| columns::write_parquet(&Table::of_part(part), out))?;
+    }
+    if let Some(path) = &emulate.arrow {
+        write(path, |out| columns::write_arrow(&Table::of_part(part), out))?;
+    }
     if let Some(path) = &emulate.picture {
         let svg = emulate::picture(part, &emulate.color, emulate.view)
             .map_err(|error| ours(error, &path.display().to_string()))?;
@@ -138,7 +144,7 @@ fn write_files(emulate: &Emulate, operation: &AdditiveOperation<'_>, part: &Addi
 /// A file, complete or absent, as something that can be written to.
 fn write(
     path: &Path,
-    fill: impl FnOnce(Box<dyn Write + '_>) -> Result<(), emulate::Error>,
+    fill: impl FnOnce(Box<dyn Write + Send + '_>) -> Result<(), emulate::Error>,
 ) -> Result<(), Stop> {
     let mut output = Output::open(path)?;
     let mut failed = None;

@@ -64,8 +64,8 @@ impl<'a> Commands<'a> {
     }
 
     fn parsed(text: &'a [u8], mut parser: Parser<'_>) -> Self {
-        // A line of a print has about thirty bytes.
-        let mut steps = Vec::with_capacity(text.len() / 30);
+        // A line of a print has about thirty bytes, and room that is not used costs nothing.
+        let mut steps = Vec::with_capacity(text.len() / 24);
         parser.read(text, |step| steps.push(step));
         Self { steps, diagnostics: parser.into_diagnostics() }
     }

@@ -15,7 +15,7 @@
 //! 4. An [`AdditivePart`] looks at the deposits: segments, layers, paths, mass; [`Table`], [`EventSeries`] and
 //!    [`PolyData`] hand all of it to other programs.
 //!
-//! Lengths are mm, times s, speeds mm/s, volumes mm³, masses g, densities g/cm³. All work is linear in the length of
+//! The [`guide`] shows all of it by examples. Lengths are mm, times s, speeds mm/s, volumes mm³, masses g, densities g/cm³. All work is linear in the length of
 //! the program, and nothing that a program says makes it fail: what is wrong stands among the diagnostics.
 
 mod arc;
@@ -24,6 +24,8 @@ mod commands;
 mod error;
 mod events;
 mod extruder;
+#[doc = include_str!("guide.md")]
+pub mod guide {}
 mod machine;
 pub mod motion;
 mod operation;

@@ -280,46 +280,42 @@ impl ProcessData {
         Some(Moment { index, at: self.point(index, way), state, distance: before + way })
     }
 
-    /// Makes room for so many entries.
+    /// Makes room for so many entries. What the planner says of them is nothing until it says it.
     pub(crate) fn reserve(&mut self, count: usize) {
-        for column in self.at.iter_mut().chain([
-            &mut self.feed_rate,
+        for planned in [
             &mut self.speed_entry,
             &mut self.speed_peak,
             &mut self.speed_exit,
             &mut self.acceleration,
             &mut self.elapsed_time,
             &mut self.distance,
-            &mut self.step_distance,
-        ]) {
-            column.reserve_exact(count);
+        ] {
+            // Memory that comes zeroed costs nothing until it is touched.
+            *planned = vec![0.0; count];
         }
+        self.at.iter_mut().for_each(|column| column.reserve_exact(count));
+        self.feed_rate.reserve_exact(count);
+        self.step_distance.reserve_exact(count);
         self.line.reserve_exact(count);
         self.arc.reserve_exact(count);
         self.tool.reserve_exact(count);
         self.action.reserve_exact(count);
     }
 
-    /// Adds an entry that takes no time yet.
-    #[inline]
-    pub(crate) fn push(&mut self, row: &Row) {
+    /// Adds an entry that takes no time yet; there is [room](Self::reserve) for it.
+    #[inline(always)]
+    pub(crate) fn push(&mut self, row: &Row<'_>) {
         for (column, value) in self.at.iter_mut().zip(row.at) {
             column.push(value);
         }
         self.feed_rate.push(row.feed_rate);
-        self.speed_entry.push(0.0);
-        self.speed_peak.push(0.0);
-        self.speed_exit.push(0.0);
-        self.acceleration.push(0.0);
-        self.elapsed_time.push(0.0);
-        self.distance.push(0.0);
         self.step_distance.push(row.length);
         self.line.push(row.line);
         self.tool.push(row.tool);
         self.action.push(row.action);
         self.arc.push(match row.arc {
             Some(arc) => {
-                self.arcs.push(arc);
+                self.arcs.push(*arc);
                 u32::try_from(self.arcs.len() - 1).unwrap_or(STRAIGHT)
             }
             None => STRAIGHT,
@@ -328,28 +324,33 @@ impl ProcessData {
 
     /// Turns the durations that stand in the column of times, and the ways of the steps, into sums.
     pub(crate) fn add_up(&mut self) {
-        let (mut time, mut way) = (0.0, 0.0);
-        for index in 0..self.len() {
-            time += self.elapsed_time[index];
-            self.elapsed_time[index] = time;
-            if self.action[index].is_path() {
-                way += self.step_distance[index];
+        debug_assert_eq!(self.elapsed_time.len(), self.len());
+        let mut time = 0.0;
+        for elapsed in &mut self.elapsed_time {
+            time += *elapsed;
+            *elapsed = time;
+        }
+        let mut way = 0.0;
+        let steps = self.action.iter().zip(&self.step_distance);
+        for (distance, (action, step)) in self.distance.iter_mut().zip(steps) {
+            if action.is_path() {
+                way += step;
             }
-            self.distance[index] = way;
+            *distance = way;
         }
     }
 }
 
 /// An entry as the machine walks over it.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Row {
+pub(crate) struct Row<'a> {
     pub(crate) line: u32,
     pub(crate) action: Action,
     pub(crate) at: [f64; 3],
     pub(crate) feed_rate: f64,
     pub(crate) length: f64,
     pub(crate) tool: u16,
-    pub(crate) arc: Option<Arc>,
+    pub(crate) arc: Option<&'a Arc>,
 }
 
 /// Where the machine is at a time.

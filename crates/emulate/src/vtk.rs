@@ -261,7 +261,10 @@ impl PolyData {
             "# vtk DataFile Version 3.0\nclayforge\nBINARY\nDATASET POLYDATA\nPOINTS {points} float\n"
         )?;
         out.write_all(&CellData::F32(flat).bytes(true))?;
-        write!(out, "\nLINES {cells} {}\n", cells + self.connectivity.len())?;
+        if cells > 0 {
+            // VTK calls a list of no lines an error.
+            write!(out, "\nLINES {cells} {}\n", cells + self.connectivity.len())?;
+        }
         let mut lines = Vec::with_capacity(4 * (cells + self.connectivity.len()));
         let mut start = 0;
         for &end in &self.ends {

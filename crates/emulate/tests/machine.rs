@@ -191,6 +191,28 @@ fn limits_of_the_file_hold_from_their_line_on() {
 }
 
 #[test]
+fn klipper_smooths_short_moves_from_the_line_that_says_so() {
+    let flavor = Flavor::named("klipper").expect("built in");
+    let text = b"G1 X1.5 F6000\nG4 P0\nSET_VELOCITY_LIMIT MINIMUM_CRUISE_RATIO=0.5\nG1 X0\nG4 P0\n\
+        SET_VELOCITY_LIMIT ACCEL_TO_DECEL=125\nG1 X1.5\nG1 E1.5\nG4 P0\nSET_VELOCITY_LIMIT MINIMUM_CRUISE_RATIO=0\nG1 X0\n";
+    let machine = Machine { flavor: flavor.clone(), ..machine() };
+    let operation = machine.process(Commands::read_as(text, flavor).steps).expect("sound");
+    let process = operation.process_data();
+    // A triangle, from rest to rest; and a ramp up, so much of the way at one speed, and a ramp down.
+    let triangle = 2.0 * (1.5f64 / 500.0).sqrt();
+    let smooth = |virtual_acceleration: f64| {
+        let speed = (virtual_acceleration * 1.5).sqrt();
+        2.0 * speed / 500.0 + (1.5 - speed * speed / 500.0) / speed
+    };
+    near(process.duration(0), triangle);
+    near(process.duration(3), smooth(250.0));
+    near(process.duration(6), smooth(125.0));
+    // What the extruder does alone shakes nothing.
+    near(process.duration(7), triangle);
+    near(process.duration(10), triangle);
+}
+
+#[test]
 fn limits_can_be_read_from_firmware() {
     let flavor = Flavor::named("grbl").expect("built in");
     let settings = Commands::read_as(b"$11=0.02\n$110=3000\n$120=250\n$121=250\n$122=50\n", flavor);

@@ -141,6 +141,21 @@ fn caps_of_single_axes() {
 }
 
 #[test]
+fn a_full_circle_is_as_slow_as_its_slowest_axis() {
+    // It begins and ends along Y, and X is the slow one.
+    let axis_speed = [30.0, f64::INFINITY, f64::INFINITY, f64::INFINITY];
+    let rules = BaamConstraints { axis_speed, stop_on_vertical: true };
+    let by_rules = MotionProfile::baam(None, 0.05, rules);
+    let mut by_limits = machine(MotionProfile::default());
+    by_limits.limits.axis_speed = axis_speed;
+    for machine in [machine(by_rules), by_limits] {
+        let steps = Commands::read(b"G2 I50 F6000\n").steps;
+        let operation = machine.process(steps).expect("sound");
+        near(operation.total_time(), std::f64::consts::TAU * 50.0 / 30.0, "a circle");
+    }
+}
+
+#[test]
 fn arcs_without_their_own_speed_limit_are_faster() {
     // Speed that changes at once has no limit on curves.
     let found = time("d2_arcs_fast", MotionProfile::default());
@@ -158,7 +173,7 @@ fn by_moves(name: &str) -> (Operation<'static>, Vec<Vec<f64>>) {
 
 #[test]
 fn every_move_has_the_speeds_and_the_time_of_the_oracle() {
-    for name in ["a_square", "d_arcs", "g_corners"] {
+    for name in ["a_square", "d_arcs", "f_modes", "g_corners"] {
         let (operation, rows) = by_moves(name);
         let moves: Vec<_> = operation.process_data().iter().filter(|row| row.step_distance > 0.0).collect();
         assert_eq!(moves.len(), rows.len(), "{name}");

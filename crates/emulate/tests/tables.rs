@@ -54,6 +54,35 @@ fn event_series_are_those_of_py_gcode_decode() {
 }
 
 #[test]
+fn the_events_of_modes_are_those_of_the_oracle_where_it_can_be_followed() {
+    let operation = emulated(include_bytes!("data/f_modes.gcode"));
+    let series = EventSeries::new(&operation, &EventOptions::default());
+    // pyGCodeDecode up to the first move behind which it takes `G92` for a move.
+    let ours = rows(&series.to_rows());
+    let at = |time: f64| ours.iter().find(|row| (row[0] - time).abs() < 2e-8);
+    for theirs in &rows(include_str!("data/f_modes_events.csv"))[..3] {
+        let found = at(theirs[0]).unwrap_or_else(|| panic!("no row at {} in {ours:?}", theirs[0]));
+        assert!((0..5).all(|cell| (found[cell] - theirs[cell]).abs() < 2e-8), "{found:?} {theirs:?}");
+    }
+    // The other planner all the way: a row at each change of acceleration, and no other.
+    let mut expected = vec![0.0];
+    let mut start = 0.0;
+    for line in include_str!("data/f_modes_moves.csv").lines().skip(1) {
+        let cell: Vec<f64> = line.split(',').map(|cell| cell.parse().expect("a number")).collect();
+        let [_, _, entry, peak, exit, time] = cell[..] else { panic!("six cells: {line}") };
+        let phases = [(peak - entry) / 500.0, time - (peak - exit) / 500.0, time];
+        expected.extend(phases.map(|since| start + since));
+        start += time;
+    }
+    let near = |a: f64, b: f64| (a - b).abs() < 1e-7;
+    expected.dedup_by(|late, early| near(*late, *early));
+    assert_eq!(series.len(), expected.len(), "{:?} {expected:?}", series.time);
+    assert!(series.time.iter().zip(&expected).all(|(&found, &wanted)| near(found, wanted)));
+    let end = series.at[series.len() - 1];
+    assert!([20.0, -10.0, 0.0].iter().zip(end).all(|(wanted, found)| (wanted - found).abs() < 1e-9));
+}
+
+#[test]
 fn the_series_of_a_whole_print_ends_when_the_oracle_does() {
     let text = include_bytes!("data/p_tile.gcode");
     for (junction, end) in
@@ -191,4 +220,19 @@ fn the_legacy_file_is_made_as_the_format_says() {
         [&head[..], &points, b"\nLINES 1 3\n", &lines, b"\nCELL_DATA 1\nSCALARS feed_rate float 1\n"]
             .concat();
     assert_eq!(&file[..expected.len()], expected);
+}
+
+#[test]
+fn a_part_without_deposits_is_a_file_all_the_same() {
+    let operation = emulated(b"G1 X10 F600\n");
+    let part = AdditivePart::new(&operation, BEAD, [0.0, 0.0, 1.0]).expect("a sound bead");
+    let mesh = PolyData::of(&part, &[]).expect("no scalars");
+    let mut file = Vec::new();
+    mesh.write_vtk(&mut file).expect("memory takes all");
+    let text = String::from_utf8_lossy(&file);
+    // VTK 9.7 refuses `LINES 0 0`.
+    assert!(
+        text.contains("POINTS 0 float") && text.contains("CELL_DATA 0") && !text.contains("LINES"),
+        "{text}"
+    );
 }

@@ -1,9 +1,9 @@
 //! How the machine moves: what the emulator must know of it.
 
 use crate::Profile;
-use emulate::motion::MotionProfile;
+use emulate::motion::{MotionProfile, Smoothing};
 use emulate::{Extruder, Limits, Machine};
-use skein::{EUnit, Feed, Micron, Settings, Value};
+use skein::{EUnit, Feed, Micron, Ratio, Settings, Value};
 
 /// What the machine can do when it moves. The firmware knows it: `M503` prints it on Marlin, `$$` on GRBL.
 #[derive(Clone, Debug, PartialEq, Settings)]
@@ -14,6 +14,10 @@ pub struct Motion {
     /// How far it may cut a corner (`M205 J`, `$11`). Less is slower round corners.
     #[setting(default = 0.05, min = 0.0, max = 10.0, unit = "mm")]
     pub junction_deviation: Micron,
+    /// How much of a short move it goes at one speed (`minimum_cruise_ratio` of Klipper, where 0.5 is usual). Firmware
+    /// of other kinds has none.
+    #[setting(default = 0.0, min = 0.0, max = 0.99)]
+    pub cruise_ratio: Ratio,
     /// The highest speed along x and along y (`M203`, `$110`).
     #[setting(default = 300.0, min = 0.1, max = 10000.0, unit = "mm/s")]
     pub xy_speed: Feed,
@@ -28,7 +32,8 @@ pub struct Motion {
 impl Profile {
     /// The machine of this profile for the emulator.
     pub fn emulator(&self) -> Machine {
-        let Motion { acceleration, junction_deviation, xy_speed, z_speed, e_speed } = &self.motion;
+        let Motion { acceleration, junction_deviation, cruise_ratio, xy_speed, z_speed, e_speed } =
+            &self.motion;
         let [flat, up, mut e] = [xy_speed, z_speed, e_speed].map(|speed| speed.mm_per_s());
         let known = self.machine.max_e_speed.f64();
         if known > 0.0 {
@@ -38,6 +43,7 @@ impl Profile {
             motion: MotionProfile {
                 max_acceleration: Some(f64::from(*acceleration)),
                 junction_deviation: junction_deviation.mm(),
+                smoothing: Smoothing::CruiseRatio(cruise_ratio.f64()),
                 ..MotionProfile::default()
             },
             limits: Limits { axis_speed: [flat, flat, up, e], ..Limits::default() },

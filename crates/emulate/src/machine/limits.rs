@@ -1,5 +1,6 @@
 //! What the machine can do, and what a file says about that.
 
+use crate::motion::{Smoothing, least};
 use gcode::{Command, Flavor, Quantity};
 use std::f64::consts::SQRT_2;
 
@@ -44,6 +45,8 @@ pub struct Limits {
     pub retract: f64,
     /// Corners; nothing leaves them to the planner.
     pub corner: Option<Corner>,
+    /// How much of short moves is cruised through; nothing leaves it to the planner.
+    pub smoothing: Option<Smoothing>,
 }
 
 impl Default for Limits {
@@ -56,6 +59,7 @@ impl Default for Limits {
             travel: f64::INFINITY,
             retract: f64::INFINITY,
             corner: None,
+            smoothing: None,
         }
     }
 }
@@ -94,6 +98,8 @@ impl Limits {
                     self.corner = Some(Corner::SquareSpeed(value))
                 }
                 Quantity::AxisJerk(_) => {}
+                Quantity::CruiseRatio => self.smoothing = Some(Smoothing::CruiseRatio(value)),
+                Quantity::AccelerationToDeceleration => self.smoothing = Some(Smoothing::AccelToDecel(value)),
             }
         }
     }
@@ -103,4 +109,17 @@ fn set(axes: &mut [f64; 4], axis: u8, value: f64) {
     if let Some(limit) = axes.get_mut(usize::from(axis)) {
         *limit = value;
     }
+}
+
+/// The least of the limits of axes that have these shares of what is limited: for each mm of way so many mm of the axis.
+/// An axis without a share has no say.
+#[inline]
+pub(crate) fn along(limits: &[f64; 4], shares: &[f64; 4]) -> f64 {
+    let limits = limits.iter().zip(shares).map(|(limit, share)| limit / share);
+    limits.fold(f64::INFINITY, least)
+}
+
+/// Whether any of the limits is one.
+pub(crate) fn any(limits: &[f64; 4]) -> bool {
+    limits.iter().any(|limit| limit.is_finite())
 }

@@ -13,7 +13,7 @@ pub(crate) trait Record {
     /// What the planner gives back with a move.
     type Tag: Copy + Default;
     /// One command.
-    fn row(&mut self, row: &Row, more: &More) -> Self::Tag;
+    fn row(&mut self, row: &Row<'_>, more: &More) -> Self::Tag;
     /// The plan of a move.
     fn moved(&mut self, tag: Self::Tag, step: &motion::Step, acceleration: f64);
     /// A time without a move, s.
@@ -40,7 +40,7 @@ struct Clay {
 }
 
 impl Clay {
-    fn of(row: &Row, more: &More, extruder: Extruder) -> Self {
+    fn of(row: &Row<'_>, more: &More, extruder: Extruder) -> Self {
         let Some(deposit) = more.deposit else { return Self::default() };
         let (mm3, per_second) = match deposit.by {
             By::Amount => (deposit.amount * more.mm3_per_unit, false),
@@ -71,13 +71,13 @@ impl Debt {
 /// Columns that only one kind of process has.
 pub(crate) trait Extra: Default {
     fn reserve(&mut self, count: usize);
-    fn push(&mut self, row: &Row, more: &More, machine: &Machine);
+    fn push(&mut self, row: &Row<'_>, more: &More, machine: &Machine);
     fn add_up(&mut self, process: &ProcessData);
 }
 
 impl Extra for () {
     fn reserve(&mut self, _: usize) {}
-    fn push(&mut self, _: &Row, _: &More, _: &Machine) {}
+    fn push(&mut self, _: &Row<'_>, _: &More, _: &Machine) {}
     fn add_up(&mut self, _: &ProcessData) {}
 }
 
@@ -99,7 +99,7 @@ impl Extra for Material {
     }
 
     #[inline]
-    fn push(&mut self, row: &Row, more: &More, machine: &Machine) {
+    fn push(&mut self, row: &Row<'_>, more: &More, machine: &Machine) {
         let clay = Clay::of(row, more, machine.extruder);
         if clay.per_second {
             self.rates.push(self.delta_volume.len());
@@ -134,7 +134,7 @@ impl Extra for Milling {
         self.spindle.reserve_exact(count);
     }
 
-    fn push(&mut self, _: &Row, more: &More, machine: &Machine) {
+    fn push(&mut self, _: &Row<'_>, more: &More, machine: &Machine) {
         self.spindle.push(more.spindle);
         if let Some(cutter) = machine.cutter {
             self.cutter = cutter;
@@ -185,8 +185,8 @@ impl<'m, X: Extra> Columns<'m, X> {
 impl<X: Extra> Record for Columns<'_, X> {
     type Tag = usize;
 
-    #[inline]
-    fn row(&mut self, row: &Row, more: &More) -> usize {
+    #[inline(always)]
+    fn row(&mut self, row: &Row<'_>, more: &More) -> usize {
         let index = self.process.len();
         if index == 0 {
             self.process.start = more.from;
@@ -285,7 +285,7 @@ impl Record for Sum {
     type Tag = Waiting;
 
     #[inline]
-    fn row(&mut self, row: &Row, more: &More) -> Waiting {
+    fn row(&mut self, row: &Row<'_>, more: &More) -> Waiting {
         self.totals.commands += 1;
         let (mut length, mut patience) = (0.0, f64::INFINITY);
         match row.action {

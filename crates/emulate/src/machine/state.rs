@@ -103,7 +103,7 @@ impl State {
     }
 
     /// Does what a command says.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn obey(&mut self, command: &Command<'_>, say: Say<'_>) -> Effect {
         match *command {
             Command::Move { to, feed, rapid, .. } => self.straight(command, to, feed, rapid, None, say),
@@ -120,6 +120,7 @@ impl State {
         }
     }
 
+    #[inline(never)]
     fn obey_seldom(&mut self, command: &Command<'_>, say: Say<'_>) -> Effect {
         match *command {
             Command::Extrude { deposit, by: By::Amount, feed, tool } => {
@@ -286,7 +287,7 @@ impl State {
         Deposit { amount, by }
     }
 
-    #[inline]
+    #[inline(always)]
     fn straight(
         &mut self,
         command: &Command<'_>,

@@ -1,12 +1,12 @@
 //! From command to command: what each does, and how long it takes.
 
-use super::limits::Limits;
+use super::limits::{Limits, along, any};
 use super::record::{More, Record};
 use super::state::{Deposit, Effect, State, Way};
 use super::{Machine, feed::Feed};
 use crate::error::Error;
 use crate::extruder::Extruder;
-use crate::motion::{Move, Planner, SHORTEST};
+use crate::motion::{Move, Planner, SHORTEST, least};
 use crate::process::{Action, Row};
 use gcode::{By, Command, Diagnostic, Diagnostics, Problem, Step};
 use std::borrow::Cow;
@@ -19,6 +19,8 @@ pub(crate) struct Walk<'m, R: Record> {
     machine: &'m Machine,
     state: State,
     limits: Limits,
+    /// Whether any axis has a limit of speed, and of acceleration, of its own.
+    has_axes: [bool; 2],
     /// mm³ of one E; `M200` changes it.
     mm3_per_unit: f64,
     planner: Planner<R::Tag>,
@@ -37,6 +39,7 @@ impl<'m, R: Record> Walk<'m, R> {
         Ok(Self {
             machine,
             state: State::new(machine.start, machine.flavor.g90_affects_e, machine.bare_g92, feed),
+            has_axes: has_axes(&limits),
             limits,
             mm3_per_unit: machine.extruder.mm3_per_unit(),
             planner: Planner::default(),
@@ -59,15 +62,14 @@ impl<'m, R: Record> Walk<'m, R> {
             diagnostics.push(Diagnostic { line: step.line, column: 0, kind: Problem::Machine(text) });
         };
         let before = state.at;
-        let effect = state.obey(&step.command, &mut say);
-        match effect {
-            Effect::Way(way) => self.go(step.line, &way),
+        match &state.obey(&step.command, &mut say) {
+            Effect::Way(way) => self.go(step.line, way),
             Effect::Nothing => {
                 self.obey_settings(&step.command);
                 self.row(step.line, Action::Nothing, before, None);
                 Ok(())
             }
-            Effect::Wait(seconds, deposit) => {
+            &Effect::Wait(seconds, deposit) => {
                 self.stop()?;
                 let action = if deposit.is_some() { Action::Purge } else { Action::Dwell };
                 let tag = self.row(step.line, action, before, deposit);
@@ -98,6 +100,7 @@ impl<'m, R: Record> Walk<'m, R> {
     fn obey_settings(&mut self, command: &Command<'_>) {
         if self.machine.obeys_limits && matches!(command, Command::M { .. } | Command::Config { .. }) {
             self.limits.obey(command, &self.machine.flavor);
+            self.has_axes = has_axes(&self.limits);
         }
         if let Command::M { tenths: 2000, words } = command
             && let Some(diameter) = words.get(b'D')
@@ -119,13 +122,14 @@ impl<'m, R: Record> Walk<'m, R> {
             })
     }
 
+    #[inline(never)]
     fn row(&mut self, line: u32, action: Action, from: [f64; 3], deposit: Option<Deposit>) -> R::Tag {
         let row = Row { line, action, at: self.state.at, tool: self.state.tool, ..Row::default() };
         self.record.row(&row, &more(&self.state, self.mm3_per_unit, from, deposit))
     }
 
     /// A move of the nozzle or of the extruder.
-    #[inline]
+    #[inline(always)]
     fn go(&mut self, line: u32, way: &Way) -> Result<(), Error> {
         let Self { state, diagnostics, .. } = self;
         let mut say = |text: Cow<'static, str>| {
@@ -168,7 +172,7 @@ impl<'m, R: Record> Walk<'m, R> {
             feed_rate: told,
             length: if still { 0.0 } else { step.length },
             tool: state.tool,
-            arc: way.arc.filter(|_| moves),
+            arc: way.arc.as_ref().filter(|_| moves),
         };
         let tag = self.record.row(&row, &more(&self.state, self.mm3_per_unit, way.from, way.deposit));
         if still {
@@ -178,8 +182,8 @@ impl<'m, R: Record> Walk<'m, R> {
         step.table = way.table / step.length;
         step.target = told;
         self.limit(&mut step, action, row.arc.is_some());
-        if let Some(arc) = &row.arc {
-            step.target = step.target.min(arc.speed_limit(step.acceleration));
+        if let Some(arc) = row.arc {
+            step.target = least(step.target, arc.speed_limit(step.acceleration));
         }
         let Self { planner, record, machine, .. } = self;
         planner
@@ -195,38 +199,47 @@ impl<'m, R: Record> Walk<'m, R> {
     /// What the limits leave of the speed that was asked for, and the acceleration.
     #[inline]
     fn limit(&self, step: &mut Move, action: Action, is_arc: bool) {
-        let limits = &self.limits;
-        let highest = self.machine.motion.max_velocity.unwrap_or(f64::INFINITY).min(limits.speed);
-        step.target = step.target.min(highest);
+        let Self { limits, machine: Machine { motion, .. }, .. } = self;
+        let highest = motion.max_velocity.map_or(limits.speed, |highest| least(highest, limits.speed));
+        step.target = least(step.target, highest);
         step.acceleration = match action {
             Action::Deposit => limits.print,
             Action::Extrude => limits.retract,
             _ => limits.travel,
         };
-        let [x, y, z] = step.tangent_in;
-        // An arc may point anywhere in its plane between its ends.
-        let flat = if is_arc {
-            libm::hypot(x, y).max(libm::hypot(step.tangent_out[0], step.tangent_out[1]))
-        } else {
-            0.0
-        };
-        let shares = [
-            x.abs().max(flat),
-            y.abs().max(flat),
-            z.abs().max(step.tangent_out[2].abs()),
-            step.extruder.abs(),
-        ];
-        for (axis, share) in shares.into_iter().enumerate() {
-            if share > 0.0 {
-                step.target = step.target.min(limits.axis_speed[axis] / share);
-                step.acceleration = step.acceleration.min(limits.axis_acceleration[axis] / share);
-            }
+        if self.has_axes != [false; 2] {
+            self.limit_axes(step, is_arc);
         }
+        // Smoothing is for the nozzle; what the extruder does alone shakes nothing.
+        step.smooth_acceleration = match action {
+            Action::Extrude => step.acceleration,
+            _ => limits.smoothing.unwrap_or(motion.smoothing).acceleration(step.acceleration),
+        };
         step.junction_deviation = match limits.corner {
             Some(corner) => corner.deviation(step.acceleration),
-            None => self.machine.motion.junction_deviation,
+            None => motion.junction_deviation,
         };
     }
+
+    /// What the limits of single axes leave.
+    #[inline]
+    fn limit_axes(&self, step: &mut Move, is_arc: bool) {
+        let ([x, y, z], end) = (step.tangent_in, step.tangent_out);
+        // An arc may point anywhere in its plane between its ends.
+        let flat = if is_arc { libm::hypot(x, y).max(libm::hypot(end[0], end[1])) } else { 0.0 };
+        let shares = [x.abs().max(flat), y.abs().max(flat), z.abs().max(end[2].abs()), step.extruder.abs()];
+        let [has_speeds, has_accelerations] = self.has_axes;
+        if has_speeds {
+            step.target = least(step.target, along(&self.limits.axis_speed, &shares));
+        }
+        if has_accelerations {
+            step.acceleration = least(step.acceleration, along(&self.limits.axis_acceleration, &shares));
+        }
+    }
+}
+
+fn has_axes(limits: &Limits) -> [bool; 2] {
+    [&limits.axis_speed, &limits.axis_acceleration].map(any)
 }
 
 #[inline]

@@ -1,7 +1,10 @@
 //! Rules of a machine beyond corners: the hook of the planner, and the BAAM that uses it.
 
 use super::Moves;
-use super::moves::SHORTEST;
+use super::moves::{SHORTEST, dot};
+
+/// Ends that lie nearer to each other than this part of the length are those of an arc.
+const STRAIGHT: f64 = 1.0 - 1e-9;
 
 /// Rules that a machine adds to its planner, without a change of the planner.
 ///
@@ -79,11 +82,14 @@ impl MachineConstraints for BaamConstraints {
 }
 
 impl BaamConstraints {
-    /// The speed along the path at which the first axis is at its limit. Of an arc both ends are looked at, and where
-    /// the two differ X and Y in full, since an arc may point anywhere between.
+    /// The speed along the path at which the first axis is at its limit. Of an arc X and Y are looked at in full, since
+    /// it may point anywhere between its ends.
     fn highest(&self, moves: &Moves, index: usize) -> f64 {
-        let (start, end) = (moves.tangent_in[index], moves.tangent_out[index]);
-        let flat = if start == end { None } else { Some(libm::hypot(start[0], start[1])) };
+        let start = moves.tangent_in[index];
+        let by = [0, 1, 2].map(|axis| moves.to[index][axis] - moves.from[index][axis]);
+        // A whole circle ends as it began; only its length tells it from a straight move.
+        let is_arc = dot(by, by) < (moves.length[index] * STRAIGHT).powi(2);
+        let flat = if is_arc { Some(libm::hypot(start[0], start[1])) } else { None };
         let shares = [
             flat.unwrap_or(start[0].abs()),
             flat.unwrap_or(start[1].abs()),

@@ -1,6 +1,7 @@
 //! How fast a machine goes round the corner between two moves.
 
-use super::moves::{Moves, dot};
+use super::least;
+use super::moves::{Move, dot};
 
 /// Beyond this cosine two directions are opposite: a full stop. GRBL uses the same.
 const REVERSAL: f64 = 0.999_999;
@@ -33,55 +34,54 @@ pub enum JunctionModel {
 }
 
 impl JunctionModel {
-    /// The square of the highest speed from move `index` to the next one, mm²/s²; infinite where there is no limit.
-    /// The speeds of the two moves are not looked at, except by [`ClassicJerk`](Self::ClassicJerk).
+    /// The square of the highest speed from one move to the next, mm²/s²; infinite where there is no limit. The speeds
+    /// of the two moves are not looked at, except by [`ClassicJerk`](Self::ClassicJerk).
     #[inline]
-    pub fn speed_squared(self, moves: &Moves, index: usize) -> f64 {
-        let next = index + 1;
-        if !moves.is_path(index) || !moves.is_path(next) {
+    pub fn speed_squared(self, before: &Move, after: &Move) -> f64 {
+        if !before.is_path() || !after.is_path() {
             return 0.0;
         }
         match self {
             Self::None => return f64::INFINITY,
             Self::FullStop => return 0.0,
-            Self::ClassicJerk(jerk) => return classic(moves, index, jerk),
+            Self::ClassicJerk(jerk) => return classic(before, after, jerk),
             _ => {}
         }
-        let acceleration = moves.acceleration[index].min(moves.acceleration[next]);
+        let acceleration = least(before.acceleration, after.acceleration);
         if acceleration == f64::INFINITY {
             return f64::INFINITY;
         }
-        let mut corner = Corner::between(moves.tangent_out[index], moves.tangent_in[next]);
+        let mut corner = Corner::between(before.tangent_out, after.tangent_in);
         if self == Self::MarlinSmall {
             // Marlin knows no way straighter than this.
             corner = Corner::of_cos(corner.cos.max(-REVERSAL));
         }
-        let around = corner.speed_squared(acceleration, moves.junction_deviation[next]);
+        let around = corner.speed_squared(acceleration, after.junction_deviation);
         match self {
             Self::PyGCodeDecode => corner.of_py_gcode_decode(around),
             _ if corner.cos > REVERSAL => 0.0,
             Self::Klipper => {
                 let half = 0.5 * corner.sin_half / corner.cos_half();
-                let limit = |step: usize| moves.length[step] * moves.acceleration[step] * half;
+                let limit = |step: &Move| step.length * step.acceleration * half;
                 // 0/0 of a reversal that is just none is no limit either.
-                around.min(limit(index)).min(limit(next))
+                around.min(limit(before)).min(limit(after))
             }
-            Self::MarlinSmall if moves.length[next] < MARLIN_SHORT && corner.cos < MARLIN_GENTLE => {
+            Self::MarlinSmall if after.length < MARLIN_SHORT && corner.cos < MARLIN_GENTLE => {
                 let turn = libm::acos(-corner.cos);
-                around.min(moves.length[next] * acceleration / turn.max(MARLIN_LEAST_ANGLE))
+                around.min(after.length * acceleration / turn.max(MARLIN_LEAST_ANGLE))
             }
             _ => around,
         }
     }
 
-    /// The square of the speed with which a run may begin or end at move `index`.
-    pub(crate) fn rest_squared(self, moves: &Moves, index: usize) -> f64 {
+    /// The square of the speed with which a run may begin or end with a move.
+    pub(crate) fn rest_squared(self, step: &Move) -> f64 {
         match self {
-            Self::ClassicJerk(jerk) if moves.is_path(index) => {
-                let [x, y, z] = moves.tangent_in[index];
-                let axes = [x, y, z, moves.extruder[index]];
+            Self::ClassicJerk(jerk) if step.is_path() => {
+                let [x, y, z] = step.tangent_in;
+                let axes = [x, y, z, step.extruder];
                 let safe = (0..4).map(|axis| jerk[axis] / axes[axis].abs()).fold(f64::INFINITY, f64::min);
-                let speed = safe.min(moves.target[index]);
+                let speed = safe.min(step.target);
                 speed * speed
             }
             _ => 0.0,
@@ -136,15 +136,14 @@ impl Corner {
 
 /// The common speed is lowered until no axis jumps by more than its jerk. An axis that turns back counts with its
 /// larger speed and not with the sum, as Prusa's firmware does.
-fn classic(moves: &Moves, index: usize, jerk: [f64; 4]) -> f64 {
-    let next = index + 1;
-    let speed = moves.target[index].min(moves.target[next]);
+fn classic(before: &Move, after: &Move, jerk: [f64; 4]) -> f64 {
+    let speed = before.target.min(after.target);
     let mut factor: f64 = 1.0;
     for (axis, &most) in jerk.iter().enumerate() {
         let of = |tangent: [f64; 3], extruder: f64| speed * tangent.get(axis).copied().unwrap_or(extruder);
-        let before = of(moves.tangent_out[index], moves.extruder[index]);
-        let after = of(moves.tangent_in[next], moves.extruder[next]);
-        let jump = if before * after < 0.0 { before.abs().max(after.abs()) } else { (after - before).abs() };
+        let old = of(before.tangent_out, before.extruder);
+        let new = of(after.tangent_in, after.extruder);
+        let jump = if old * new < 0.0 { old.abs().max(new.abs()) } else { (new - old).abs() };
         if jump > most {
             factor = factor.min(most / jump);
         }

@@ -38,6 +38,8 @@ mod phases;
 mod planner;
 mod profile;
 mod scurve;
+mod smooth;
+mod stretch;
 #[cfg(test)]
 mod tests;
 
@@ -47,9 +49,11 @@ pub use moves::{Move, Moves, SHORTEST};
 pub use phases::{MotionState, Phase, Phases};
 pub(crate) use planner::Planner;
 pub use profile::{ProfileType, Ramps, Task, Timing};
+pub use smooth::Smoothing;
 
 use std::fmt;
 use std::sync::Arc;
+use stretch::Stretch;
 
 /// The planner of a machine and its limits.
 #[derive(Clone)]
@@ -62,6 +66,8 @@ pub struct MotionProfile {
     pub junction_deviation: f64,
     /// The law of speed within a move.
     pub profile: ProfileType,
+    /// How much of short moves is cruised through.
+    pub smoothing: Smoothing,
     /// The rule for the speed at corners.
     pub junction: JunctionModel,
     /// Rules of the machine.
@@ -76,6 +82,7 @@ impl Default for MotionProfile {
             max_velocity: None,
             junction_deviation: 0.05,
             profile: ProfileType::default(),
+            smoothing: Smoothing::default(),
             junction: JunctionModel::default(),
             constraints: None,
         }
@@ -91,8 +98,11 @@ impl MotionProfile {
     /// A move with the limits of this planner.
     pub fn limit(&self, step: Move) -> Move {
         let target = step.target.min(self.max_velocity.unwrap_or(f64::INFINITY));
-        Move { target, ..step }
-            .limited(self.max_acceleration.unwrap_or(f64::INFINITY), self.junction_deviation)
+        let acceleration = self.max_acceleration.unwrap_or(f64::INFINITY);
+        let limited = step.limited(acceleration, self.junction_deviation);
+        let smooth_acceleration =
+            if step.is_path() { self.smoothing.acceleration(acceleration) } else { acceleration };
+        Move { target, smooth_acceleration, ..limited }
     }
 
     /// Plans moves that begin and end at rest.
@@ -102,15 +112,12 @@ impl MotionProfile {
     pub fn plan(&self, moves: &Moves) -> Result<Plan, MotionError> {
         self.check()?;
         let mut plan = Plan::default();
-        if moves.is_empty() {
-            return Ok(plan);
-        }
-        let mut work = planner::Stretch::default();
-        work.prepare(self, moves, None, true)?;
-        work.pass(self, moves);
+        let mut stretch = Stretch::default();
         for index in 0..moves.len() {
-            plan.push(work.step(self, moves, index));
+            stretch.push(self, &moves.get(index))?;
         }
+        stretch.end(self)?;
+        stretch.hand_out(self, moves.len(), |_, step, _| plan.push(step));
         Ok(plan)
     }
 
@@ -132,7 +139,7 @@ impl MotionProfile {
                 "the junction deviation must be 0 mm or more, not {value}"
             )));
         }
-        match self.profile.fault() {
+        match self.profile.fault().or(self.smoothing.fault()) {
             Some(fault) => Err(MotionError::limit(fault)),
             None => Ok(()),
         }
@@ -146,6 +153,7 @@ impl fmt::Debug for MotionProfile {
             .field("max_velocity", &self.max_velocity)
             .field("junction_deviation", &self.junction_deviation)
             .field("profile", &self.profile)
+            .field("smoothing", &self.smoothing)
             .field("junction", &self.junction)
             .field("constraints", &self.constraints.is_some())
             .finish()
@@ -173,7 +181,7 @@ impl Plan {
         self.time.iter().sum()
     }
 
-    fn push(&mut self, step: Step) {
+    fn push(&mut self, step: &Step) {
         self.entry.push(step.entry);
         self.peak.push(step.timing.peak);
         self.exit.push(step.exit);
@@ -215,3 +223,15 @@ impl fmt::Display for MotionError {
 }
 
 impl std::error::Error for MotionError {}
+
+/// The lesser of two numbers, neither of which is NaN: one instruction, unlike [`f64::min`].
+#[inline(always)]
+pub(crate) fn least(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}
+
+/// The greater of two numbers, neither of which is NaN.
+#[inline(always)]
+pub(crate) fn greatest(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}

@@ -24,6 +24,9 @@ pub struct Move {
     pub target: f64,
     /// What it may accelerate with, mm/s²; infinite when speed changes at once.
     pub acceleration: f64,
+    /// The acceleration with which its highest speed is found, mm/s²: the same, or lower where the machine smooths
+    /// ([`Smoothing`](super::Smoothing)).
+    pub smooth_acceleration: f64,
     /// How far corners may be cut, mm.
     pub junction_deviation: f64,
 }
@@ -44,6 +47,7 @@ impl Move {
             table: 0.0,
             target,
             acceleration: f64::INFINITY,
+            smooth_acceleration: f64::INFINITY,
             junction_deviation: 0.0,
         }
     }
@@ -51,7 +55,7 @@ impl Move {
     /// The same move with these limits.
     #[must_use]
     pub fn limited(mut self, acceleration: f64, junction_deviation: f64) -> Self {
-        self.acceleration = acceleration;
+        (self.acceleration, self.smooth_acceleration) = (acceleration, acceleration);
         self.junction_deviation = junction_deviation;
         self
     }
@@ -84,6 +88,8 @@ pub struct Moves {
     pub target: Vec<f64>,
     /// Accelerations, mm/s².
     pub acceleration: Vec<f64>,
+    /// Accelerations with which the highest speeds are found, mm/s².
+    pub smooth_acceleration: Vec<f64>,
     /// Junction deviations, mm.
     pub junction_deviation: Vec<f64>,
 }
@@ -101,7 +107,6 @@ impl Moves {
     }
 
     /// One more at the end.
-    #[inline]
     pub fn push(&mut self, step: &Move) {
         self.from.push(step.from);
         self.to.push(step.to);
@@ -112,6 +117,7 @@ impl Moves {
         self.table.push(step.table);
         self.target.push(step.target);
         self.acceleration.push(step.acceleration);
+        self.smooth_acceleration.push(step.smooth_acceleration);
         self.junction_deviation.push(step.junction_deviation);
     }
 
@@ -127,6 +133,7 @@ impl Moves {
             table: self.table[index],
             target: self.target[index],
             acceleration: self.acceleration[index],
+            smooth_acceleration: self.smooth_acceleration[index],
             junction_deviation: self.junction_deviation[index],
         }
     }
@@ -142,6 +149,7 @@ impl Moves {
             &mut self.table,
             &mut self.target,
             &mut self.acceleration,
+            &mut self.smooth_acceleration,
             &mut self.junction_deviation,
         ] {
             numbers.clear();

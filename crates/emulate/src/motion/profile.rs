@@ -2,6 +2,7 @@
 
 use super::phases::{Phase, Phases};
 use super::scurve;
+use super::{greatest, least};
 
 /// The law of speed within a move.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +80,7 @@ pub struct Task {
 
 impl ProfileType {
     /// How long the move takes and how fast it gets.
-    #[inline]
+    #[inline(always)]
     pub fn timing(self, task: &Task) -> Timing {
         let one = |peak: f64, time: f64| Timing { time, peak, limit_exceeded: false };
         if task.acceleration == f64::INFINITY
@@ -172,16 +173,16 @@ fn even(from: f64, to: f64, length: f64) -> Phase {
 }
 
 /// T = (vp − v0)/a + (vp − v1)/a + dc/vp with vp² = min(vmax², a·d + (v0² + v1²)/2).
-#[inline]
+#[inline(always)]
 fn trapezoid(task: &Task) -> Timing {
     let Task { length, entry, exit, target, acceleration } = *task;
     let (entry2, exit2) = (entry * entry, exit * exit);
-    let peak2 = (target * target).min(acceleration * length + 0.5 * (entry2 + exit2));
+    let peak2 = least(target * target, acceleration * length + 0.5 * (entry2 + exit2));
     // Rounding must not put the peak below the ends.
-    let peak = peak2.sqrt().max(entry).max(exit);
+    let peak = greatest(greatest(peak2.sqrt(), entry), exit);
     let twice = 2.0 * acceleration;
     let ramps = (2.0 * peak * peak - entry2 - exit2) / twice;
-    let cruise = (length - ramps).max(0.0);
+    let cruise = length - ramps;
     let time = (2.0 * peak - entry - exit) / acceleration + if cruise > 0.0 { cruise / peak } else { 0.0 };
     Timing { time, peak, limit_exceeded: false }
 }

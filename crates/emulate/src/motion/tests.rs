@@ -34,17 +34,23 @@ fn turn(degrees: f64, acceleration: f64, deviation: f64) -> Moves {
         .collect()
 }
 
+/// The square of the speed between two moves.
+fn corner(model: JunctionModel, moves: &Moves) -> f64 {
+    model.speed_squared(&moves.get(0), &moves.get(1))
+}
+
 #[test]
 fn corners_are_as_fast_as_the_formula_says() {
     for case in cases("junction") {
         let (degrees, deviation) = (number(&case, "turn_deg"), number(&case, "jd"));
         let moves = turn(degrees, number(&case, "acc"), deviation);
-        let found = JunctionModel::Grbl.speed_squared(&moves, 0).sqrt();
+        let speed = |model: JunctionModel| corner(model, &moves).sqrt();
+        let found = speed(JunctionModel::Grbl);
         let expected = number(&case, "v");
         // The cosine of a turn of a thousandth of a degree has few digits left.
         let tolerance = if degrees < 0.1 { 1e-6 } else { 1e-9 };
         assert!((found / expected - 1.0).abs() < tolerance, "{degrees}: {found} is not {expected}");
-        let klipper = JunctionModel::Klipper.speed_squared(&moves, 0).sqrt();
+        let klipper = speed(JunctionModel::Klipper);
         let lower = expected.min(number(&case, "klipper_cap_1mm"));
         assert!((klipper / lower - 1.0).abs() < tolerance, "{degrees}: {klipper} is not {lower}");
     }
@@ -53,27 +59,27 @@ fn corners_are_as_fast_as_the_formula_says() {
 #[test]
 fn a_way_straight_back_is_a_full_stop_and_straight_on_costs_nothing() {
     for model in [JunctionModel::Grbl, JunctionModel::MarlinSmall, JunctionModel::PyGCodeDecode] {
-        assert_eq!(model.speed_squared(&turn(180.0, 500.0, 0.05), 0), 0.0, "{model:?}");
+        assert_eq!(corner(model, &turn(180.0, 500.0, 0.05)), 0.0, "{model:?}");
     }
-    assert!(JunctionModel::Klipper.speed_squared(&turn(180.0, 500.0, 0.05), 0) < 1e-9);
+    assert!(corner(JunctionModel::Klipper, &turn(180.0, 500.0, 0.05)) < 1e-9);
     for model in [JunctionModel::Grbl, JunctionModel::Klipper, JunctionModel::None] {
-        assert_eq!(model.speed_squared(&turn(0.0, 500.0, 0.05), 0), f64::INFINITY, "{model:?}");
+        assert_eq!(corner(model, &turn(0.0, 500.0, 0.05)), f64::INFINITY, "{model:?}");
     }
-    assert_eq!(JunctionModel::FullStop.speed_squared(&turn(0.0, 500.0, 0.05), 0), 0.0);
+    assert_eq!(corner(JunctionModel::FullStop, &turn(0.0, 500.0, 0.05)), 0.0);
 }
 
 #[test]
 fn classic_jerk_limits_the_jump_of_each_axis() {
-    let corner = |degrees: f64| {
+    let speed = |degrees: f64| {
         let mut moves = turn(degrees, 500.0, 0.0);
         moves.target = vec![40.0, 50.0];
-        JunctionModel::ClassicJerk([8.0, 8.0, 0.4, 5.0]).speed_squared(&moves, 0).sqrt()
+        corner(JunctionModel::ClassicJerk([8.0, 8.0, 0.4, 5.0]), &moves).sqrt()
     };
-    near(corner(0.0), 40.0);
+    near(speed(0.0), 40.0);
     // At a right angle each axis jumps by the whole speed.
-    near(corner(90.0), 8.0);
+    near(speed(90.0), 8.0);
     // Straight back an axis counts once.
-    near(corner(180.0), 8.0);
+    near(speed(180.0), 8.0);
 }
 
 #[test]
@@ -231,13 +237,15 @@ proptest! {
     #[test]
     fn a_second_round_of_passes_changes_nothing_and_the_speeds_are_the_largest(moves in walk()) {
         let planner = planner(ProfileType::default());
-        let mut work = planner::Stretch::default();
-        work.prepare(&planner, &moves, None, true).expect("sound");
-        let caps = work.junction_squares().to_vec();
-        work.pass(&planner, &moves);
-        let once = work.junction_squares().to_vec();
-        work.pass(&planner, &moves);
-        prop_assert_eq!(&once, &work.junction_squares().to_vec());
+        let mut stretch = Stretch::default();
+        for index in 0..moves.len() {
+            stretch.push(&planner, &moves.get(index)).expect("sound");
+        }
+        stretch.end(&planner).expect("sound");
+        let (caps, once) = (stretch.caps(), stretch.exits().to_vec());
+        stretch.set_caps(&once);
+        stretch.end(&planner).expect("sound");
+        prop_assert_eq!(&once, &stretch.exits().to_vec());
         let reach = |index: usize| 2.0 * moves.acceleration[index] * moves.length[index];
         for index in 0..moves.len() {
             let before = if index == 0 { 0.0 } else { once[index - 1] };
@@ -308,10 +316,16 @@ proptest! {
     }
 
     #[test]
-    fn planned_in_windows_is_planned_as_a_whole(moves in walk(), rounds in 1..400usize) {
+    fn planned_in_windows_is_planned_as_a_whole(
+        moves in walk(),
+        rounds in 1..200usize,
+        ratio in prop_oneof![Just(0.0), 0.0..0.95f64],
+    ) {
         // Long enough that the first moves are settled before the last have come.
-        let planner = planner(ProfileType::default());
-        let many = Moves::from_iter((0..rounds).flat_map(|_| (0..moves.len()).map(|index| moves.get(index))));
+        let smoothing = Smoothing::CruiseRatio(ratio);
+        let planner = MotionProfile { smoothing, ..planner(ProfileType::default()) };
+        let once = || (0..moves.len()).map(|index| planner.limit(moves.get(index)));
+        let many = Moves::from_iter((0..rounds).flat_map(|_| once()));
         let whole = planner.plan(&many).expect("sound");
         let mut run = Planner::default();
         let mut steps = Vec::new();

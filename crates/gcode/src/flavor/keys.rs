@@ -180,6 +180,8 @@ impl Entry for Quantity {
             Self::Speed => "speed".to_owned(),
             Self::JunctionDeviation => "junction_deviation".to_owned(),
             Self::CornerSpeed => "corner_speed".to_owned(),
+            Self::CruiseRatio => "cruise_ratio".to_owned(),
+            Self::AccelerationToDeceleration => "acceleration_to_deceleration".to_owned(),
             Self::AxisAcceleration(axis) => of("acceleration", axis),
             Self::AxisSpeed(axis) => of("speed", axis),
             Self::AxisJerk(axis) => of("jerk", axis),
@@ -200,6 +202,8 @@ impl Entry for Quantity {
                 "speed" => Self::Speed,
                 "junction_deviation" => Self::JunctionDeviation,
                 "corner_speed" => Self::CornerSpeed,
+                "cruise_ratio" => Self::CruiseRatio,
+                "acceleration_to_deceleration" => Self::AccelerationToDeceleration,
                 _ => return None,
             },
         })

@@ -25,6 +25,20 @@ pub enum Quantity {
     CornerSpeed,
     /// The jump in speed of one axis, mm/s.
     AxisJerk(u8),
+    /// The part of a move that is cruised through (Klipper), 0 or more and less than 1.
+    CruiseRatio,
+    /// The acceleration with which the highest speed of a move is found (Klipper until 2024), mm/s².
+    AccelerationToDeceleration,
+}
+
+impl Quantity {
+    /// Whether it may be so much.
+    fn may_be(self, value: f64) -> bool {
+        match self {
+            Self::CruiseRatio => (0.0..1.0).contains(&value),
+            _ => value > 0.0 && value.is_finite(),
+        }
+    }
 }
 
 /// How the number of a word becomes the limit.
@@ -61,7 +75,7 @@ impl Limit {
         Self { command: Cow::Borrowed(command), word: Cow::Borrowed(word), quantity, value }
     }
 
-    /// The limit that `command` sets, if it sets this one to a positive number.
+    /// The limit that `command` sets, if it sets this one to what it may be: nearly all must be more than 0.
     pub fn of(&self, command: &Command<'_>) -> Option<f64> {
         let number = self.number(command)?;
         let value = match self.value {
@@ -69,7 +83,7 @@ impl Limit {
             LimitValue::PerMinute => number / 60.0,
             LimitValue::Inverse(dividend) => dividend / number,
         };
-        (value.is_finite() && value > 0.0).then_some(value)
+        self.quantity.may_be(value).then_some(value)
     }
 
     fn number(&self, command: &Command<'_>) -> Option<f64> {

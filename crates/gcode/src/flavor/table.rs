@@ -123,6 +123,8 @@ fn klipper() -> Flavor {
                     limit("SET_VELOCITY_LIMIT", "VELOCITY", Speed, Same),
                     limit("SET_VELOCITY_LIMIT", "ACCEL", Acceleration, Same),
                     limit("SET_VELOCITY_LIMIT", "SQUARE_CORNER_VELOCITY", CornerSpeed, Same),
+                    limit("SET_VELOCITY_LIMIT", "MINIMUM_CRUISE_RATIO", CruiseRatio, Same),
+                    limit("SET_VELOCITY_LIMIT", "ACCEL_TO_DECEL", AccelerationToDeceleration, Same),
                 ]
             },
         ),

@@ -104,4 +104,7 @@ fn words_that_change_limits_are_data() {
     assert_eq!(limits("grbl", b"$110=600\n$11=0.02"), [(AxisSpeed(0), 10.0), (JunctionDeviation, 0.02)]);
     let klipper = limits("klipper", b"SET_VELOCITY_LIMIT ACCEL=500 SQUARE_CORNER_VELOCITY=4\nM204 S0");
     assert_eq!(klipper, [(Acceleration, 500.0), (CornerSpeed, 4.0)]);
+    let smoothing = limits("klipper", b"SET_VELOCITY_LIMIT ACCEL_TO_DECEL=250 minimum_cruise_ratio=0");
+    assert_eq!(smoothing, [(CruiseRatio, 0.0), (AccelerationToDeceleration, 250.0)]);
+    assert_eq!(limits("klipper", b"SET_VELOCITY_LIMIT MINIMUM_CRUISE_RATIO=1 ACCEL_TO_DECEL=0"), []);
 }
