@@ -133,7 +133,9 @@ impl Subject {
 
 /// The lowest layer of a file as a machine lays it, coloured by speed.
 fn run_by_a_machine(gcode: &[u8], profile: &Profile) -> Result<String, String> {
-    let steps = emulate::Commands::read(gcode).steps;
+    // The cases count clay from move to move; only the file of a whole chain says so.
+    let relative = [b"M83\n", gcode].concat();
+    let steps = emulate::Commands::read(&relative).steps;
     let operation = profile.emulator().process_additive(steps).map_err(|error| error.to_string())?;
     let bead = emulate::Bead::estimated(&operation, emulate::Bead::default());
     let part =

@@ -93,11 +93,11 @@ impl Solid {
             let [a, b, c] = face.corners.map(|[x, y]| format!("{x:.3} {y:.3}"));
             let shade = (110.0 + 100.0 * face.light).round();
             let colour = [shade, shade * 0.76, shade * 0.6].map(|part| format!("{part:.0}")).join(",");
-            // Its own colour around it, so that no light shines between two faces of a plane.
-            // Writing to a string cannot fail.
+            // Its own colour around it, so that no light shines between two faces of a plane. A style of its own, since the
+            // drawing beside it has one for all paths. Writing to a string cannot fail.
             let _ = writeln!(
                 svg,
-                "<path d=\"M{a}L{b}L{c}z\" fill=\"rgb({colour})\" stroke=\"rgb({colour})\" stroke-linejoin=\"round\"/>"
+                "<path d=\"M{a}L{b}L{c}z\" style=\"fill:rgb({colour});stroke:rgb({colour})\" stroke-linejoin=\"round\"/>"
             );
         }
         for face in &self.faces {
@@ -105,7 +105,7 @@ impl Solid {
                 let ([x, y], [u, v]) = (face.corners[side], face.corners[(side + 1) % 3]);
                 let _ = writeln!(
                     svg,
-                    "<path d=\"M{x:.3} {y:.3}L{u:.3} {v:.3}\" stroke=\"#643\" stroke-linecap=\"round\"/>"
+                    "<path d=\"M{x:.3} {y:.3}L{u:.3} {v:.3}\" style=\"stroke:#643\" stroke-linecap=\"round\"/>"
                 );
             }
         }
