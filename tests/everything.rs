@@ -8,17 +8,25 @@ use clayforge::{Notes, Profile, STAGES};
 use rayon::prelude::*;
 use skein::{Line, Nozzle, Skein};
 
-/// The parts with the settings they are printed with: the examples, of few thick layers, and the meshes of the
-/// specification.
-fn parts() -> Vec<(&'static str, Vec<u8>, &'static [(&'static str, &'static str)])> {
+/// A part with the settings it is printed with.
+#[derive(Clone)]
+struct Part {
+    name: &'static str,
+    stl: Vec<u8>,
+    settings: &'static [(&'static str, &'static str)],
+}
+
+/// The examples, in few thick layers, and the meshes of the specification.
+fn parts() -> Vec<Part> {
     const COARSE: &[(&str, &str)] = &[
         ("machine.nozzle", "5"),
         ("carve.layer_height", "3"),
         ("carve.first_layer_height", "3"),
         ("carve.bead_width", "6"),
     ];
-    let examples = ["bowl", "cube", "cup", "pair", "tile", "vase"].map(|name| (name, example(name), COARSE));
-    let meshes = meshes().into_iter().map(|(name, part)| (name, stl(&part), &[][..]));
+    let examples = ["bowl", "cube", "cup", "pair", "tile", "vase"];
+    let examples = examples.map(|name| Part { name, stl: example(name), settings: COARSE });
+    let meshes = meshes().into_iter().map(|(name, part)| Part { name, stl: stl(&part), settings: &[] });
     examples.into_iter().chain(meshes).collect()
 }
 
@@ -48,7 +56,7 @@ fn a_2_all_stages_at_once_make_a_sound_file_of_every_part() {
             [("clay", "coil"), ("seed", "coil"), ("clay", "multiply")].map(|how| (part.clone(), how))
         })
         .collect();
-    jobs.par_iter().for_each(|((name, part, settings), (chain, but))| {
+    jobs.par_iter().for_each(|(Part { name, stl: part, settings }, (chain, but))| {
         let what = format!("{name}, {chain}, all but {but}");
         let mut profile = everything(chain, but);
         for (key, value) in *settings {

@@ -172,7 +172,7 @@ fn every_stage_keeps_the_clay_of_each_layer_unless_it_is_there_to_change_it() {
                 let works = profile.station(stage).is_some_and(|station| station.active);
                 assert!(works || before == after, "{name}: {stage} is off and changes clay");
                 let copies = if *stage == "multiply" { copies(profile) } else { 1.0 };
-                let found = works.then(|| judged(stage, copies, before, after)).unwrap_or(Ok(false));
+                let found = if works { judged(stage, copies, before, after) } else { Ok(false) };
                 if found.map_err(|why| format!("{name}: {stage}: {why}"))? {
                     changed.insert(*stage);
                 }
