@@ -50,12 +50,14 @@ fn last_skein(run: &Run) -> Skein {
 
 #[test]
 fn a_2_all_stages_at_once_make_a_sound_file_of_every_part() {
-    let jobs: Vec<_> = parts()
-        .into_iter()
-        .flat_map(|part| {
-            [("clay", "coil"), ("seed", "coil"), ("clay", "multiply")].map(|how| (part.clone(), how))
-        })
-        .collect();
+    // A spiral is wound on pots; on all other parts it stands aside.
+    let pots = ["cup", "vase", "cyl", "ring"];
+    let hows = |part: &Part| {
+        let spiral = pots.contains(&part.name).then_some(("clay", "multiply"));
+        [("clay", "coil"), ("seed", "coil")].into_iter().chain(spiral)
+    };
+    let jobs: Vec<_> =
+        parts().into_iter().flat_map(|part| hows(&part).map(move |how| (part.clone(), how))).collect();
     jobs.par_iter().for_each(|(Part { name, stl: part, settings }, (chain, but))| {
         let what = format!("{name}, {chain}, all but {but}");
         let mut profile = everything(chain, but);
