@@ -3,6 +3,7 @@
 //! * [`cases`]: the pages of the stages are their tests;
 //! * [`law`]: reading undoes writing, and views leave nothing out;
 //! * [`parts`]: whole prints, in memory and as text, on one thread and on two;
+//! * [`everything`]: all stages at once, on every part, in both chains;
 //! * [`cli`]: the command as scripts and people meet it;
 //! * [`edit`]: the page of `clayforge edit` is its test;
 //! * [`emulate`]: what a machine makes of finished files, through the command;
@@ -11,12 +12,14 @@
 //! * [`fuzzing`]: a short run of every fuzz target;
 //! * [`torture`]: parts as potters find them, each in a process of its own;
 //! * [`tidy`]: the layout of the workspace;
-//! * [`totals`]: what lies on the test meshes behind fill.
+//! * [`totals`]: what lies on the test meshes behind fill;
+//! * [`volume`]: what the stages do to the clay of each layer.
 
 mod cases;
 mod cli;
 mod edit;
 mod emulate;
+mod everything;
 mod fuzzing;
 mod import;
 mod law;
@@ -26,3 +29,4 @@ mod support;
 mod tidy;
 mod torture;
 mod totals;
+mod volume;

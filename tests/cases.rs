@@ -3,14 +3,17 @@
 //! A case has the nearest heading above it as its name. Its fences are
 //!
 //! * `toml`, if it wants settings: a profile, in which a section is a stage;
-//! * `skein before` or, for preface and what comes before it, `svg before`;
-//! * `skein after`, for export `gcode after`, for bottom `svg after`, or `error`: the error's text, and perhaps a line `hint: …`.
+//! * `skein before` or, for preface and bottom, `svg before`, for scale and carve `obj before`;
+//! * `skein after`, for export `gcode after`, for carve and bottom `svg after`, for scale `obj after`, or `error`: the
+//!   error's text, and perhaps a line `hint: …`.
 //!
 //! A `before` that has no header gets [`HEADER`], and then only the layers are compared. Every case is run from text to
 //! text and in memory. `CLAYFORGE_BLESS=1 cargo test -p all-tests cases` rewrites the last fence of each case that fails.
 
 use crate::support::{blessing, craft, difference, folders, name_of, root, text_of};
-use clayforge::{Bench, Document, Error, Form, Notes, Place, Profile, Source, only_built_in, stage};
+use clayforge::{
+    Bench, Document, Error, Form, Notes, Place, Plate, Profile, Source, only_built_in, read_part, stage,
+};
 use skein::{Layer, Skein, Slices};
 use std::fmt::Write;
 use std::fs;
@@ -41,10 +44,10 @@ struct Case {
     /// The line of the first fence.
     line: usize,
     settings: String,
-    /// What the text before is: `skein` or `svg`.
+    /// What the text before is: `skein`, `svg` or `obj`.
     kind: String,
     before: String,
-    /// What is expected: `skein`, `gcode`, `svg` or `error`.
+    /// What is expected: `skein`, `gcode`, `svg`, `obj` or `error`.
     wanted: String,
     expected: String,
     /// Where the expectation stands in the page.
@@ -115,8 +118,10 @@ fn cases(stage: &str, page: &Path) -> Vec<Case> {
         let body = || text[fence.body.clone()].to_owned();
         match fence.info.split_whitespace().collect::<Vec<_>>().as_slice() {
             ["toml"] => settings = (body(), fence.line),
-            [kind @ ("skein" | "svg"), "before"] => before = Some(((*kind).to_owned(), body(), fence.line)),
-            [wanted @ ("skein" | "gcode" | "svg"), "after"] | [wanted @ "error"] => {
+            [kind @ ("skein" | "svg" | "obj"), "before"] => {
+                before = Some(((*kind).to_owned(), body(), fence.line))
+            }
+            [wanted @ ("skein" | "gcode" | "svg" | "obj"), "after"] | [wanted @ "error"] => {
                 let place = format!("{}:{}", page.display(), fence.line);
                 let (kind, before, line) =
                     before.take().unwrap_or_else(|| panic!("{place}: `{wanted}` without a before"));
@@ -159,7 +164,7 @@ impl Case {
 
     /// Whether the text before has a header of its own.
     fn has_header(&self) -> bool {
-        self.kind == "svg" || self.before.contains("(</extruderInitialization>)")
+        self.kind != "skein" || self.before.contains("(</extruderInitialization>)")
     }
 
     /// The whole text before.
@@ -217,11 +222,15 @@ impl Case {
         let profile = self.profile()?;
         let station = profile.station(&self.stage).ok_or_else(|| Error::new("there is no such stage"))?;
         let said = |error: Error| error.said_by(&self.stage);
+        let mut notes = Notes::default();
         let document = match station.work.forms().0 {
+            Form::Mesh => {
+                let part = read_part(input.as_bytes(), &profile, &mut notes).map_err(said)?;
+                Document::Mesh(Plate { parts: vec![part], done: Vec::new() })
+            }
             Form::Slices => Document::Slices(Slices::read(input.as_bytes()).map_err(said)?),
             _ => Document::Skein(Skein::read(input.as_bytes()).map_err(said)?),
         };
-        let mut notes = Notes::default();
         let mut out = Vec::new();
         let mut sink = |piece: &[u8]| {
             out.extend_from_slice(piece);
@@ -245,6 +254,9 @@ impl Case {
 
     /// The part of what was made that the fence shows.
     fn seen(&self, text: &[u8], input: &str, profile: &Profile) -> Result<String, Error> {
+        if self.wanted == "obj" {
+            return obj(text);
+        }
         let whole = String::from_utf8_lossy(text).into_owned();
         if Form::of(text) == Form::Slices {
             return Ok(lines(whole.lines().filter(|line| line.trim_start().starts_with("<g id"))));
@@ -310,6 +322,21 @@ fn same(one: &str, other: &str) -> bool {
     one.lines().map(str::trim_end).eq(other.lines().map(str::trim_end))
 }
 
+/// A mesh as the text of an OBJ file, which people can read.
+fn obj(mesh: &[u8]) -> Result<String, Error> {
+    let part = read_part(mesh, &Profile::default(), &mut Notes::default())?;
+    let mm = |microns: i32| f64::from(microns) / 1000.0;
+    let mut text = String::new();
+    for at in &part.vertices {
+        let _ = writeln!(text, "v {} {} {}", mm(at.x), mm(at.y), mm(at.z));
+    }
+    for face in &part.faces {
+        let [a, b, c] = face.vertices.map(|vertex| vertex + 1);
+        let _ = writeln!(text, "f {a} {b} {c}");
+    }
+    Ok(text)
+}
+
 fn lines<'a>(lines: impl Iterator<Item = &'a str>) -> String {
     lines.fold(String::new(), |text, line| text + line + "\n")
 }
@@ -362,7 +389,7 @@ fn every_case_of_every_page_holds() {
 
 /// F6: a stage that is switched off gives its text back, to the byte.
 #[test]
-fn a_stage_that_is_switched_off_changes_nothing_in_any_case() {
+fn f6_a_stage_that_is_switched_off_changes_nothing_in_any_case() {
     for (stage, page) in pages() {
         for case in
             cases(&stage, &page).into_iter().filter(|case| case.kind == "skein" && case.stage != "export")
@@ -383,7 +410,7 @@ fn a_stage_that_is_switched_off_changes_nothing_in_any_case() {
 
 /// F7 and F10: a stage signs directly above the end of the header, and does not work on what it has signed.
 #[test]
-fn a_stage_signs_its_work_and_does_it_once_in_every_case() {
+fn f7_f10_a_stage_signs_its_work_and_does_it_once_in_every_case() {
     for (stage, page) in pages() {
         for case in cases(&stage, &page).into_iter().filter(|case| case.wanted == "skein") {
             let profile = case.profile().unwrap_or_else(|error| panic!("{}: {error}", case.name()));
@@ -402,7 +429,7 @@ fn a_stage_signs_its_work_and_does_it_once_in_every_case() {
 
 /// F11: a layer without anything in it passes through every stage.
 #[test]
-fn a_layer_without_a_ring_passes_through_every_stage() {
+fn f11_a_layer_without_a_ring_passes_through_every_stage() {
     let mut text =
         format!("{HEADER}(<layer> 0.75 )\n(</layer>)\n(<layer> 2.25 )\n(</layer>)\n{END}").into_bytes();
     let profile = Profile::default();

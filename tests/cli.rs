@@ -10,7 +10,7 @@ use std::ffi::OsStr;
 use std::fs;
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{ChildStdout, Command, Output, Stdio};
 use std::sync::OnceLock;
 use tempfile::TempDir;
 
@@ -536,7 +536,7 @@ fn everything() -> Vec<String> {
 }
 
 #[test]
-fn stage_after_stage_in_a_pipe_gives_the_bytes_of_slice() {
+fn a_5_stage_after_stage_in_a_pipe_gives_the_bytes_of_slice() {
     for (name, part, settings) in piped() {
         let room = Room::new();
         room.put(name, &part);
@@ -562,6 +562,40 @@ fn stage_after_stage_in_a_pipe_gives_the_bytes_of_slice() {
             );
         }
         assert!(text == whole, "{name}: the pipe and slice differ");
+    }
+}
+
+/// stages_tests.md A-5: one `clayforge craft` for each stage, each reading what the one before writes while it writes it.
+#[test]
+fn a_5_the_chain_as_one_pipe_gives_the_bytes_of_slice() {
+    let room = Room::new();
+    room.put("cube.stl", example("cube"));
+    for settings in [Vec::new(), everything()] {
+        let settings: Vec<&str> = settings.iter().map(String::as_str).collect();
+        let whole = room.run(&[&["slice", "cube.stl", "-o", "-", "--quiet"], &*settings].concat()).done().out;
+        let mut last: Option<ChildStdout> = None;
+        let mut running = Vec::new();
+        for (_, station) in numbered(&Profile::default()) {
+            let input = match last.take() {
+                Some(before) => Stdio::from(before),
+                None => Stdio::from(fs::File::open(room.path("cube.stl")).expect("the part")),
+            };
+            let mut command = room.command(&[&["craft", station.entry.name], &*settings].concat());
+            let mut child = command
+                .stdin(input)
+                .stdout(Stdio::piped())
+                .stderr(Stdio::null())
+                .spawn()
+                .expect("the command runs");
+            last = child.stdout.take();
+            running.push((station.entry.name, child));
+        }
+        let mut text = Vec::new();
+        last.expect("a chain has stages").read_to_end(&mut text).expect("the pipe is read");
+        for (stage, mut child) in running {
+            assert!(child.wait().expect("the command ends").success(), "{stage}");
+        }
+        assert!(text == whole, "the pipe and slice differ");
     }
 }
 

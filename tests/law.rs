@@ -348,7 +348,7 @@ proptest! {
 
     /// F12.
     #[test]
-    fn line_ends_make_no_difference(skein in skein()) {
+    fn f12_line_ends_make_no_difference(skein in skein()) {
         let text = String::from_utf8(skein.write()).expect("text");
         for ends in ["\r\n", "\r", "\n\n", " \n"] {
             let other = text.replace('\n', ends);

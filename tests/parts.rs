@@ -150,7 +150,7 @@ fn assert_near(found: f64, expected: f64, share: f64, what: &str) {
 
 /// each stage is resumed from the text of the one before.
 #[test]
-fn the_chain_of_texts_gives_the_bytes_of_the_chain_in_memory() {
+fn a_5_the_chain_of_texts_gives_the_bytes_of_the_chain_in_memory() {
     for print in prints() {
         let mut text = print.stl.clone();
         for (stage, expected) in &print.run.texts {
@@ -367,17 +367,25 @@ fn a_solid_part_takes_the_clay_of_its_layers() {
 fn every_number_is_plain() {
     for print in prints() {
         for (stage, text) in print.run.texts.iter().skip(1) {
-            let text = std::str::from_utf8(text).expect("text");
-            for (index, line) in text.lines().enumerate().filter(|(_, line)| line.starts_with("G1 ")) {
-                for word in line.split(' ').skip(1) {
-                    let number = &word[1..];
-                    let plain =
-                        number.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-'));
-                    let zero = number.trim_start_matches('-').bytes().all(|byte| matches!(byte, b'0' | b'.'));
-                    let sound = plain && !(zero && number.starts_with('-'));
-                    assert!(sound, "{}: {stage} line {}: {line}", print.name(), index + 1);
-                }
-            }
+            assert_plain(text, &format!("{}: {stage}", print.name()));
+        }
+    }
+}
+
+/// No number of a move is written with an exponent, as no number at all, or as a zero below zero.
+pub fn assert_plain(text: &[u8], what: &str) {
+    let text = String::from_utf8_lossy(text);
+    let moves = text.lines().enumerate();
+    for (index, line) in
+        moves.filter(|(_, line)| ["G1 ", "G2 ", "G3 "].iter().any(|word| line.starts_with(word)))
+    {
+        let words = line.split(';').next().unwrap_or("").split_whitespace();
+        for word in words.skip(1) {
+            let number = &word[1..];
+            let plain = number.bytes().all(|byte| byte.is_ascii_digit() || matches!(byte, b'.' | b'-'));
+            let zero = number.trim_start_matches('-').bytes().all(|byte| matches!(byte, b'0' | b'.'));
+            let sound = plain && !(zero && number.starts_with('-'));
+            assert!(sound, "{what}, line {}: {line}", index + 1);
         }
     }
 }
@@ -411,7 +419,7 @@ fn every_file_passes_the_clay_processor() {
 
 ///
 #[test]
-fn every_layer_of_every_part_has_a_bead_in_both_chains() {
+fn a_1_every_layer_of_every_part_has_a_bead_in_both_chains() {
     for (name, part) in meshes() {
         for chain in ["clay", "seed"] {
             let run = sliced(name, &stl(&part), &clay(&[("chain", chain)]));
@@ -429,7 +437,7 @@ fn every_layer_of_every_part_has_a_bead_in_both_chains() {
 
 /// A-3 and C3: rows of vertices at heights where the part is cut.
 #[test]
-fn vertices_on_the_cutting_planes_do_no_harm() {
+fn a_3_vertices_on_the_cutting_planes_do_no_harm() {
     let rows = [0.0, 0.2, 1.0, 4.0];
     let mut part: Triangles = cuboid([0.0; 3], [20.0, 20.0, 4.0]).split_off(8);
     for pair in rows.windows(2) {
@@ -452,7 +460,7 @@ fn vertices_on_the_cutting_planes_do_no_harm() {
 /// A-3 and C7: one triangle of a side wall is missing. Repaired it is the whole box, and said so; unrepaired the layers
 /// that are open are named.
 #[test]
-fn an_open_part_is_printed_whole_and_said() {
+fn a_3_an_open_part_is_printed_whole_and_said() {
     let mut part = cuboid([0.0; 3], [20.0, 20.0, 12.0]);
     part.remove(0);
     let run = sliced("cube-minus-one", &stl(&part), &clay(&[]));

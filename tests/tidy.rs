@@ -119,6 +119,17 @@ fn every_page_of_a_stage_says_what_it_is_for_and_what_not() {
 }
 
 #[test]
+fn every_page_of_a_stage_shows_a_picture_of_a_case() {
+    for folder in stages() {
+        let (name, page) = (name_of(&folder), text_of(&folder.join("README.md")));
+        let (_, behind) = page.split_once("](").unwrap_or_else(|| panic!("{name} shows no picture"));
+        let picture = behind.split(')').next().unwrap_or("");
+        assert!(picture.starts_with(&name) && folder.join(picture).exists(), "{name} shows `{picture}`");
+        assert!(behind.contains(" before\n"), "no case stands behind the picture of {name}");
+    }
+}
+
+#[test]
 fn every_crate_keeps_the_lints_of_the_workspace() {
     for member in members() {
         let sections = sections(&member.join("Cargo.toml"));
@@ -237,4 +248,52 @@ fn every_row_of_the_emulator_has_an_example_and_a_test() {
         }
     }
     assert_eq!(count, 39);
+}
+
+/// The rows of docs/stages.md, each with what stands behind it.
+fn acceptance_rows(page: &str) -> Vec<(&str, &str)> {
+    let cells =
+        page.lines().filter_map(|line| line.strip_prefix("| ")?.strip_suffix(" |")?.split_once(" | "));
+    cells.filter(|(row, _)| !matches!(*row, "row" | "---")).collect()
+}
+
+/// The rows that the page says there are: `C1 to C14, T1`.
+fn promised_rows(page: &str) -> Vec<String> {
+    let start = page.find("\nRows: ").expect("the page lists its rows");
+    let list = page[start + 7..].split_once(".\n").expect("the list ends").0.replace('\n', " ");
+    let split = |name: &str| {
+        let digits = name.find(|letter: char| letter.is_ascii_digit()).expect("a row has a number");
+        (name[..digits].to_owned(), name[digits..].parse::<u32>().expect("a row has a number"))
+    };
+    let rows = list.split(", ").flat_map(|range| {
+        let (first, last) = range.split_once(" to ").unwrap_or((range, range));
+        let ((kind, first), (_, last)) = (split(first), split(last));
+        (first..=last).map(move |number| format!("{kind}{number}"))
+    });
+    rows.collect()
+}
+
+#[test]
+fn every_acceptance_row_has_its_test_or_a_reason() {
+    let page = text_of(&root().join("docs/stages.md"));
+    let rows = acceptance_rows(&page);
+    assert!(rows.len() > 200, "only {} rows were found", rows.len());
+    assert_eq!(rows.iter().map(|(row, _)| *row).collect::<Vec<_>>(), promised_rows(&page));
+    for (row, behind) in rows {
+        // `test_name` in path, `other_test` in path; or a sentence.
+        let tests: Option<Vec<(&str, &str)>> =
+            behind.split(", ").map(|test| test.strip_prefix('`')?.split_once("` in ")).collect();
+        let Some(tests) = tests else {
+            assert!(behind.len() > 5 && behind.ends_with('.'), "{row} has neither a test nor a reason");
+            continue;
+        };
+        for (name, path) in tests {
+            let text = text_of(&root().join(path));
+            let place =
+                text.find(&format!("fn {name}(")).unwrap_or_else(|| panic!("{row}: {path} has no {name}"));
+            let before = text[..place].trim_end().lines().rev().map(str::trim);
+            let marked = before.take_while(|line| line.starts_with('#')).any(|line| line == "#[test]");
+            assert!(marked, "{row}: {name} in {path} is no test");
+        }
+    }
 }

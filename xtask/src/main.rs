@@ -10,6 +10,7 @@ mod examples;
 mod gallery;
 mod new_stage;
 mod pictures;
+mod solid;
 
 /// The folder of the workspace.
 fn root() -> PathBuf {

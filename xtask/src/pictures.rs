@@ -1,8 +1,9 @@
 //! The pictures of the pages, drawn by the program itself from the cases, so that they cannot go stale.
 
+use crate::solid::{Solid, Window, around};
 use clayforge::{
-    Document, Drawing, Error, Event, Notes, Profile, STAGES, Source, craft, draw, draw_text, only_built_in,
-    slice,
+    Document, Drawing, Error, Event, Form, Notes, Profile, STAGES, Source, craft, draw, draw_text, emulate,
+    only_built_in, read_part, slice,
 };
 use std::fmt::Write;
 use std::fs;
@@ -64,7 +65,7 @@ fn pictures<'a>(stage: &str, page: &'a str) -> Vec<(&'a str, usize)> {
 /// The first case of a page behind a place, before and after.
 fn case(stage: &str, page: &str, behind: usize) -> Result<String, String> {
     let find = |fence: &str| page[behind..].find(fence).map(|start| behind + start);
-    let (start, form) = ["skein", "svg"]
+    let (start, form) = ["skein", "svg", "obj"]
         .iter()
         .filter_map(|form| find(&format!("```{form} before\n")).map(|start| (start, *form)))
         .min()
@@ -82,8 +83,64 @@ fn case(stage: &str, page: &str, behind: usize) -> Result<String, String> {
         Ok(())
     };
     craft(stage, before.as_bytes(), &profile, &mut Notes::default(), &mut sink).map_err(say)?;
-    let drawn = |text: &[u8]| draw_text(text, Drawing::default()).map_err(say);
-    side_by_side(&[(drawn(before.as_bytes())?, "before"), (drawn(&after)?, "after")])
+    let (one, other) =
+        (Subject::of(before.as_bytes(), form, &profile)?, Subject::of(&after, &after_form(stage), &profile)?);
+    // Two solids are seen through one window, so that the larger one looks larger.
+    let window = match (&one, &other) {
+        (Subject::Solid(one), Subject::Solid(other)) => Some(around(one.window(), other.window())),
+        _ => None,
+    };
+    side_by_side(&[(one.drawn(window), "before"), (other.drawn(window), "after")])
+}
+
+/// What a stage writes, in the word of a fence.
+fn after_form(stage: &str) -> String {
+    let gives = clayforge::stage(stage).map(|entry| entry.make().forms().1);
+    let word = match gives {
+        Some(Form::Mesh) => "obj",
+        Some(Form::Slices) => "svg",
+        Some(Form::Gcode) => "gcode",
+        _ => "skein",
+    };
+    word.to_owned()
+}
+
+/// Something to be drawn.
+enum Subject {
+    Solid(Solid),
+    Drawing(String),
+}
+
+impl Subject {
+    fn of(text: &[u8], form: &str, profile: &Profile) -> Result<Self, String> {
+        match form {
+            "obj" => {
+                let part = read_part(text, profile, &mut Notes::default()).map_err(say)?;
+                Ok(Self::Solid(Solid::of(&part)))
+            }
+            "gcode" => run_by_a_machine(text, profile).map(Self::Drawing),
+            _ => draw_text(text, Drawing::default()).map_err(say).map(Self::Drawing),
+        }
+    }
+
+    fn drawn(self, window: Option<Window>) -> String {
+        match self {
+            Self::Solid(solid) => solid.draw(window.unwrap_or_else(|| solid.window())),
+            Self::Drawing(svg) => svg,
+        }
+    }
+}
+
+/// The lowest layer of a file as a machine lays it, coloured by speed.
+fn run_by_a_machine(gcode: &[u8], profile: &Profile) -> Result<String, String> {
+    // The cases count clay from move to move; only the file of a whole chain says so.
+    let relative = [b"M83\n", gcode].concat();
+    let steps = emulate::Commands::read(&relative).steps;
+    let operation = profile.emulator().process_additive(steps).map_err(|error| error.to_string())?;
+    let bead = emulate::Bead::estimated(&operation, emulate::Bead::default());
+    let part =
+        emulate::AdditivePart::new(&operation, bead, [0.0, 0.0, 1.0]).map_err(|error| error.to_string())?;
+    emulate::picture(&part, "feedrate", emulate::View::Layer(0)).map_err(|error| error.to_string())
 }
 
 /// What stands between a fence and the next.
@@ -110,8 +167,8 @@ fn side_by_side(drawings: &[(String, &str)]) -> Result<String, String> {
             rest.split_once('"').map(|(value, _)| value)
         };
         let window = said("viewBox=\"").ok_or("a drawing has no window")?;
-        // Outlines take their width from the drawing as a whole.
-        let line = said("stroke-width=\"").ok_or("a drawing has no line")?;
+        // Outlines take their width from the drawing as a whole, where it says one.
+        let line = said("stroke-width=\"").unwrap_or("1");
         let sizes: Vec<f64> = window.split(' ').filter_map(|number| number.parse().ok()).collect();
         let [_, _, wide, high] = sizes[..] else { return Err("a drawing has no size".to_owned()) };
         let width = (HEIGHT * wide / high).round();

@@ -83,7 +83,7 @@ impl Figures {
                     figures.time_s += length * 60_000.0 / f64::from(feed.get());
                 }
             }
-            figures.threads += usize::from(*line == Line::On);
+            figures.threads += usize::from(matches!(line, Line::On));
             state.follow(line);
         }
         figures.layers = usize::from(figures.extruded_mm > 0.0);

@@ -255,7 +255,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sequence_that_breaks_a_dependency_names_the_pair() {
+    fn a_4_a_sequence_that_breaks_a_dependency_names_the_pair() {
         let error =
             check_sequence(&["carve", "preface", "fill", "inset", "export"]).expect_err("fill before inset");
         assert_eq!(error.message, "sequence has `fill` before `inset`: inset must come first");

@@ -39,7 +39,7 @@ fn text(triangles: &[Triangle]) -> String {
 }
 
 #[test]
-fn text_and_binary_are_the_same_cube() {
+fn i1_text_and_binary_are_the_same_cube() {
     let text = assert_cube(text(&cube()));
     let binary = assert_cube(binary_with(b"solid cube", 12, &cube()));
     assert_eq!((text.report.format, binary.report.format), (Format::TextStl, Format::BinaryStl));
@@ -49,7 +49,7 @@ fn text_and_binary_are_the_same_cube() {
 }
 
 #[test]
-fn a_count_that_was_never_filled_in_gives_way_to_the_length() {
+fn i2_a_count_that_was_never_filled_in_gives_way_to_the_length() {
     for count in [0, 1 << 31, u32::MAX, 5] {
         let report = assert_cube(binary_with(b"solid of steel", count, &cube())).report;
         assert_eq!((report.facets, report.promised), (12, Some(count)));
@@ -58,13 +58,13 @@ fn a_count_that_was_never_filled_in_gives_way_to_the_length() {
 }
 
 #[test]
-fn decimal_commas_are_points() {
+fn i3_decimal_commas_are_points() {
     let report = assert_cube(text(&cube()).replace("20", "20,0")).report;
     assert_eq!(report.decimal_commas, 36 * 3 / 2);
 }
 
 #[test]
-fn minus_zero_is_zero() {
+fn i4_minus_zero_is_zero() {
     let triangles = [
         [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]],
         [[1.0, -0.0, -0.0], [-0.0, -0.0, 0.0], [0.0, -1.0, 0.0]],
@@ -75,7 +75,7 @@ fn minus_zero_is_zero() {
 }
 
 #[test]
-fn a_triangle_with_two_equal_corners_is_left_out_and_counted() {
+fn i5_a_triangle_with_two_equal_corners_is_left_out_and_counted() {
     let mut triangles = cube();
     triangles.insert(0, [[500.0; 3], [1.0; 3], [500.0; 3]]);
     triangles.push([[0.0; 3], [0.0001, 0.0, 0.0], [0.0, 20.0, 0.0]]);
@@ -87,7 +87,7 @@ fn a_triangle_with_two_equal_corners_is_left_out_and_counted() {
 }
 
 #[test]
-fn short_garbage_is_refused() {
+fn i6_short_garbage_is_refused() {
     let error = refusal([0xA7; 24]);
     assert_eq!(error.kind, ErrorKind::Unknown);
     assert_eq!(refusal([0; 80]).kind, ErrorKind::Unknown);
@@ -95,7 +95,7 @@ fn short_garbage_is_refused() {
 
 /// V − E + F of a cylinder made of slices.
 #[test]
-fn a_cylinder_obeys_euler() {
+fn i7_a_cylinder_obeys_euler() {
     let rim = |step: i32, z: f32| {
         let angle = (step % 48) as f32 * std::f32::consts::TAU / 48.0;
         [15.0 * angle.cos(), 15.0 * angle.sin(), z]

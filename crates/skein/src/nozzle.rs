@@ -155,7 +155,9 @@ pub fn spans(lines: &[Line]) -> impl Iterator<Item = Span<'_>> {
     std::iter::from_fn(move || {
         let (first, _) = rest.split_first()?;
         let length = match first {
-            Line::On => rest.iter().position(|line| *line == Line::Off).map_or(rest.len(), |end| end + 1),
+            Line::On => {
+                rest.iter().position(|line| matches!(line, Line::Off)).map_or(rest.len(), |end| end + 1)
+            }
             line if line.as_move().is_some() => {
                 rest.iter().position(|line| line.as_move().is_none()).unwrap_or(rest.len())
             }

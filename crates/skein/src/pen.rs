@@ -54,7 +54,7 @@ impl Pen {
 
     /// Passes an old line on with the speed and the flow that it had; `was` is the nozzle in front of it in the old layer.
     pub fn pass(&mut self, mut line: Line, was: &Nozzle) {
-        if line == Line::On || was.on {
+        if was.on || matches!(line, Line::On) {
             self.flow(was.flow);
         }
         if let Some(step) = line.as_move_mut() {

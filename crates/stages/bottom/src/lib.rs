@@ -2,6 +2,9 @@
 
 use skein::{Error, Micron, Notes, Ratio, Settings, Slices, Stage};
 
+#[cfg(test)]
+mod tests;
+
 /// Puts the lowest layer where the bed is.
 #[derive(Clone, Debug, Settings)]
 pub struct Bottom {

@@ -50,7 +50,7 @@ fn areas(slices: &Slices) -> Vec<Vec<f64>> {
 
 /// C1.
 #[test]
-fn a_cube_has_one_square_a_layer() {
+fn c1_a_cube_has_one_square_a_layer() {
     let (slices, notes) = carve(&block((0.0, 20.0), 20.0, (0.0, 10.0)));
     assert_eq!(slices.layers.len(), 25);
     assert!(slices.layers.iter().all(|layer| layer.loops.len() == 1 && layer.loops[0].0.len() == 4));
@@ -60,7 +60,7 @@ fn a_cube_has_one_square_a_layer() {
 
 /// C3: vertex rows exactly on the cutting planes.
 #[test]
-fn a_row_of_vertices_on_a_plane_does_no_harm() {
+fn c3_a_row_of_vertices_on_a_plane_does_no_harm() {
     let heights = [0.0, 0.2, 1.0, 4.0];
     let mut profile: Vec<(f64, f64)> = heights.iter().map(|z| (20.0, *z)).collect();
     profile.extend(heights.iter().rev().map(|z| (0.0, *z)));
@@ -74,7 +74,7 @@ fn a_row_of_vertices_on_a_plane_does_no_harm() {
 
 /// C11: two pillars and a slab across.
 #[test]
-fn only_the_layer_over_the_gap_is_a_bridge() {
+fn c11_only_the_layer_over_the_gap_is_a_bridge() {
     let profile =
         [(0.0, 0.0), (5.0, 0.0), (5.0, 4.0), (25.0, 4.0), (25.0, 0.0), (30.0, 0.0), (30.0, 6.0), (0.0, 6.0)];
     let triangles = [[0, 1, 2], [0, 2, 7], [2, 3, 6], [2, 6, 7], [3, 4, 5], [3, 5, 6]];
@@ -87,7 +87,7 @@ fn only_the_layer_over_the_gap_is_a_bridge() {
 
 /// C12: an overhang all round has no direction.
 #[test]
-fn a_mushroom_is_no_bridge() {
+fn c12_a_mushroom_is_no_bridge() {
     let mut vertices = Vec::new();
     for (half, z) in [(5.0, 0.0), (5.0, 6.0), (12.0, 6.0), (12.0, 10.0)] {
         vertices.extend([[-half, -half, z], [half, -half, z], [half, half, z], [-half, half, z]]);
@@ -107,7 +107,7 @@ fn a_mushroom_is_no_bridge() {
 
 /// C7: a gap is closed with a straight line and said.
 #[test]
-fn a_missing_triangle_is_spanned_and_reported() {
+fn c7_a_missing_triangle_is_spanned_and_reported() {
     let whole = block((0.0, 20.0), 20.0, (0.0, 10.0));
     let faces: Vec<[u32; 3]> = whole.faces.iter().map(|face| face.vertices).collect();
     for missing in 4..faces.len() {
@@ -127,7 +127,7 @@ fn a_missing_triangle_is_spanned_and_reported() {
 
 /// C5: triangles turned inside out slice the same.
 #[test]
-fn a_part_inside_out_slices_the_same() {
+fn c5_a_part_inside_out_slices_the_same() {
     let whole = block((0.0, 20.0), 20.0, (0.0, 10.0));
     let flipped: Vec<[u32; 3]> = whole
         .faces
@@ -143,7 +143,7 @@ fn a_part_inside_out_slices_the_same() {
 
 /// C14: two boxes through each other.
 #[test]
-fn overlapping_shells_are_united() {
+fn c14_overlapping_shells_are_united() {
     let (one, other) = (block((0.0, 10.0), 10.0, (0.0, 4.0)), block((5.0, 15.0), 8.0, (0.0, 4.0)));
     let mut vertices = one.vertices.clone();
     vertices.extend(&other.vertices);

@@ -89,7 +89,7 @@ impl Job<'_> {
         notes: &mut Notes,
     ) {
         let apart = step / self.fill.density.f64();
-        match (self.fill.pattern, Cells::new(self.fill, step)) {
+        match (self.fill.pattern, Cells::new(self.fill, self.layer, step)) {
             (Pattern::Line, _) => self.rows(solid, turned, step, apart, strands),
             (Pattern::Concentric, _) => {
                 rings::lay(&self.room(solid, turned, step), apart, self.source, strands);

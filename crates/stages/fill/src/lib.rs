@@ -63,6 +63,17 @@ pub struct Fill {
     /// better and bulges more.
     #[setting(default = 0.1, min = 0.0, max = 0.5, unit = "beads")]
     pub grid_overlap: Ratio,
+    /// After how many layers the meetings of the rectangular pattern are again as far open as at first: each goes from
+    /// `junction_separation_at_end` to `junction_separation_at_middle` and back, so that a wall of cells is an accordion.
+    #[setting(default = 10, min = 1, max = 100000, unit = "layers")]
+    pub junction_band: u32,
+    /// How far two lines of the rectangular pattern stay apart where they meet, at both ends of a band: 0 not at all, 1 by
+    /// as much as there is room between two lines. Lines that stay apart do not hold each other.
+    #[setting(default = 0.0, min = 0.0, max = 0.8)]
+    pub junction_separation_at_end: Ratio,
+    /// The same in the middle of a band.
+    #[setting(default = 0.0, min = 0.0, max = 0.8)]
+    pub junction_separation_at_middle: Ratio,
     /// How much room is left between the circles of the circular pattern. With 0 they touch and hold each other.
     #[setting(default = 0.0, min = 0.0, max = 1.0, unit = "beads")]
     pub circle_gap: Ratio,

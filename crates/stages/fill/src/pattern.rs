@@ -35,11 +35,34 @@ pub struct Wave {
     gap: f64,
 }
 
+/// How far the meetings of the rectangular pattern are opened, as shares of the room between two lines.
+#[derive(Clone, Copy)]
+struct Accordion {
+    /// On this layer.
+    here: f64,
+    /// On all layers of a band together.
+    mean: f64,
+}
+
+impl Accordion {
+    fn new(fill: &Fill, layer: usize) -> Self {
+        let (end, middle) = (fill.junction_separation_at_end.f64(), fill.junction_separation_at_middle.f64());
+        let band = fill.junction_band as usize;
+        let at = |place: usize| {
+            let way = 2.0 * place as f64 / band as f64;
+            end + (middle - end) * way.min(2.0 - way)
+        };
+        // Of an odd number of layers none is in the middle.
+        let odd = if band.is_multiple_of(2) { 0.0 } else { 1.0 / (band as f64 * band as f64) };
+        Self { here: at(layer % band), mean: end + (middle - end) * (1.0 - odd) / 2.0 }
+    }
+}
+
 impl Cells {
     /// Measures out a pattern; `None` for patterns of no cells, and where the clay is too dense to leave room for any.
     ///
     /// `step` is the room that a bead takes beside its neighbours.
-    pub fn new(fill: &Fill, step: f64) -> Option<Self> {
+    pub fn new(fill: &Fill, layer: usize, step: f64) -> Option<Self> {
         let density = fill.density.f64();
         if density > DENSEST {
             return None;
@@ -47,7 +70,9 @@ impl Cells {
         let gap = (1.0 - fill.grid_overlap.f64()) * step;
         match fill.pattern {
             Pattern::Line | Pattern::Concentric => None,
-            Pattern::Rectangular => Wave::square(density, step, gap).map(Self::Waves),
+            Pattern::Rectangular => {
+                Wave::square(density, step, gap, Accordion::new(fill, layer)).map(Self::Waves)
+            }
             Pattern::Hexagonal => Wave::honeycomb(density, step, gap).map(Self::Waves),
             Pattern::Circular => circles(density, step, (1.0 + fill.circle_gap.f64()) * step),
         }
@@ -85,10 +110,17 @@ impl Wave {
     /// Squares on their corners: lines at 45° whose meetings are a square lattice.
     ///
     /// In a cell of period 2R and rise R a line is 2√2 (R − gap) + 2 gap long, so density · R² = step · (√2 (R − gap) +
-    /// gap).
-    fn square(density: f64, step: f64, gap: f64) -> Option<Self> {
+    /// gap). The gap is `gap` + s (R − step) where the accordion opens the meetings by s; the R of all layers is that of
+    /// its mean, so that cells stand on cells and a band holds the clay that was asked for.
+    fn square(density: f64, step: f64, gap: f64, accordion: Accordion) -> Option<Self> {
         let root = std::f64::consts::SQRT_2;
-        let rise = larger_root(density, -root * step, (root - 1.0) * step * gap)?;
+        let Accordion { here, mean } = accordion;
+        let rise = larger_root(
+            density,
+            -step * (root - (root - 1.0) * mean),
+            (root - 1.0) * step * (gap - mean * step),
+        )?;
+        let gap = gap + here * (rise - step);
         Self { rise, period: 2.0 * rise, flat: gap, gap }.sound()
     }
 

@@ -463,6 +463,37 @@ fn cells_stand_on_cells() {
     }
 }
 
+/// Meetings that open and close again: the cells stay where they are, and a whole band holds the clay that was asked for.
+#[test]
+fn an_accordion_opens_its_meetings_in_the_middle_of_a_band() {
+    let side = 250_000;
+    for (band, at_end, at_middle) in [(4, 0.0, 0.5), (5, 0.4, 0.1), (1, 0.3, 0.8)] {
+        let fill = Fill {
+            junction_band: band,
+            junction_separation_at_end: ratio(at_end),
+            junction_separation_at_middle: ratio(at_middle),
+            base_layers: 0,
+            top_layers: 0,
+            ..sparse(0.3, Pattern::Rectangular)
+        };
+        let layers = laid(&fill, stack(&[square(side)], 2 * band as usize));
+        let share = |beads: &[Bead]| {
+            let length: f64 = infill(beads).iter().map(|bead| bead.length()).sum();
+            length * 0.72 / (f64::from(side) / 1000.0 - 1.44).powi(2)
+        };
+        let shares: Vec<f64> = layers.iter().map(|beads| share(beads)).collect();
+        let mean = shares.iter().sum::<f64>() / shares.len() as f64;
+        assert!((mean / 0.3 - 1.0).abs() < 0.05, "{band}: {mean}");
+        let middle = band as usize / 2;
+        // Open meetings are short cuts.
+        assert_eq!(shares[0] > shares[middle], at_end < at_middle && middle > 0, "{shares:?}");
+        for (layer, share) in shares.iter().enumerate() {
+            let same = shares[layer % band as usize];
+            assert!((share / same - 1.0).abs() < 0.01, "bands are alike: {shares:?}");
+        }
+    }
+}
+
 fn distance_to(place: (f64, f64), (from, to, _): (Point, Point, f64)) -> f64 {
     let (x, y) = from.delta(to);
     let (x, y) = (x as f64, y as f64);

@@ -62,7 +62,7 @@ impl Lift {
         for line in layer.lines {
             let before = was;
             was.follow(&line);
-            if line == Line::On {
+            if matches!(line, Line::On) {
                 self.travel(&mut pen, std::mem::take(&mut waiting));
                 pen.pass(line, &before);
             } else if before.on {

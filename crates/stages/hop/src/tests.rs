@@ -55,3 +55,22 @@ fn q7_q8_the_top_is_above_the_higher_end() {
     assert_eq!(places(&hop(1.0, 30.0), 400, "G1 X20 Z0.6"), [(10.693, 1.0), (19.307, 1.0), (20.0, 0.6)]);
     assert_eq!(places(&hop(1.5, 90.0), 2000, "G1 X20"), [(10.0, 3.2), (20.0, 3.2), (20.0, 0.2)]);
 }
+
+/// stages_tests.md Q6: where clay flows nothing is moved.
+#[test]
+fn q6_beads_stay_where_they_are() {
+    let text = "G1 X20\nM101\nG1 X30 Y0 Z0.2\nG1 X30 Y9 Z0.2\nM103\nG1 X50";
+    assert_eq!(
+        places(&hop(1.0, 90.0), 400, text),
+        [
+            (10.0, 0.6),
+            (20.0, 0.6),
+            (20.0, 0.2),
+            (30.0, 0.2),
+            (30.0, 0.2),
+            (30.0, 0.6),
+            (50.0, 0.6),
+            (50.0, 0.2)
+        ],
+    );
+}

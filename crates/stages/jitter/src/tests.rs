@@ -71,3 +71,20 @@ fn j5_no_spread_changes_nothing_and_says_so() {
     assert_eq!(stage.craft(layers(2), &mut notes), Ok(layers(2)));
     assert!(!notes.is_empty());
 }
+
+/// stages_tests.md J6, and open walls, which have no seam.
+#[test]
+fn j6_infill_stays_and_so_do_open_walls() {
+    let infill = "(<layer> 0.2 )\n(<infill>)\nG1 X2 Y2 Z0.4\nM101\nG1 X9 Y2 Z0.4\nG1 X9 Y3 Z0.4\nG1 X2 Y2 Z0.4\nM103\n(</infill>)\n(</layer>)";
+    let open = SQUARE.replace("G1 X0.36 Y0.36 Z0.4\nM103", "M103");
+    assert_ne!(open, SQUARE);
+    for text in [infill, &open] {
+        let mut skein = layers(0);
+        for _ in 0..3 {
+            let mut reader = Reader::default();
+            let lines = text.lines().map(|line| reader.line(line.as_bytes()).expect("a line")).collect();
+            skein.layers.push(Layer { lines });
+        }
+        assert_eq!(Jitter::default().craft(skein.clone(), &mut Notes::default()), Ok(skein));
+    }
+}

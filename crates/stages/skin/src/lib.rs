@@ -6,7 +6,8 @@ mod tests;
 
 use divide::{Division, divided};
 use skein::{
-    Error, Feature, Layer, Line, Notes, Nozzle, Pen, Ratio, Settings, Skein, Span, Stage, Tag, Thread, spans,
+    Error, Feature, Layer, Line, Notes, Nozzle, Pen, Point3, Ratio, Settings, Skein, Span, Stage, Tag,
+    Thread, spans,
 };
 
 /// Divides walls and tops into finer beads.
@@ -25,6 +26,14 @@ pub struct Skin {
     /// In how many beads, one upon the other, the infill of the topmost layer is laid.
     #[setting(default = 2, min = 1, max = 3)]
     pub vertical_infill_divisions: u32,
+    /// In how many beads side by side the infill of the topmost layer is laid: two go there and back on either side of
+    /// where the one lay. A nozzle lays no bead much narrower than it is.
+    #[setting(default = 1, min = 1, max = 3)]
+    pub horizontal_infill_divisions: u32,
+    /// Whether the way to infill that lies lower than the layer leads over the layer. Otherwise it goes at the height of
+    /// that infill, through the lower beads of the walls.
+    #[setting(default = false)]
+    pub hop_when_extruding_infill: bool,
     /// How much of a divided wall is left out at each of its ends, in bead widths; for those that `clip` has cut, nothing.
     #[setting(default = 0.0, min = 0.0, max = 10.0)]
     pub clip_over_bead_width: Ratio,
@@ -35,7 +44,7 @@ impl Stage for Skin {
 
     fn craft(&self, skein: Skein, notes: &mut Notes) -> Result<Skein, Error> {
         let facts = skein.facts()?;
-        let width = facts.bead_width()?.um();
+        let widths = Widths { wall: facts.bead_width()?.um(), infill: facts.infill_width()?.um() };
         let nozzles = skein.nozzles();
         let highest = skein.highest();
         let top = skein.layers.iter().rposition(|layer| layer.lines.contains(&Line::On));
@@ -52,13 +61,13 @@ impl Stage for Skin {
                 notes.layer(index, "stays undivided beside what stands already");
                 return Ok(layer.lines);
             }
-            let knife = Knife { skin: self, height, width, top: top == Some(index) };
+            let knife = Knife { skin: self, height, widths, top: top == Some(index) };
             let mut whole = false;
             let lines = knife.layer(layer, &nozzles[index], &mut whole);
             if whole {
                 notes.layer(
                     index,
-                    "walls that are open, too narrow or not level were not divided as was asked",
+                    "beads that are open, too narrow or not level were not divided as was asked",
                 );
             }
             Ok(lines)
@@ -66,12 +75,19 @@ impl Stage for Skin {
     }
 }
 
+/// The room that a bead takes beside its neighbours, in microns.
+#[derive(Clone, Copy)]
+struct Widths {
+    wall: f64,
+    infill: f64,
+}
+
 /// The stage at work on one layer.
 struct Knife<'a> {
     skin: &'a Skin,
-    /// In microns, as is the width.
+    /// In microns.
     height: i32,
-    width: f64,
+    widths: Widths,
     /// Whether the layer is the topmost.
     top: bool,
 }
@@ -97,7 +113,7 @@ impl Knife<'_> {
         for span in spans(&layer.lines) {
             if fresh && is_of_a_bead(&span) {
                 fresh = false;
-                lay_lower(&mut pen, &cuts);
+                lay_lower(&mut pen, &cuts, self.skin.hop_when_extruding_infill);
             }
             let cut = match span {
                 Span::Thread(_) => threads.next().and_then(Option::as_ref),
@@ -137,14 +153,22 @@ impl Knife<'_> {
 
     fn cut(&self, lines: &[Line], was: &Nozzle, whole: &mut bool) -> Option<Cut> {
         let skin = self.skin;
-        let division = match was.feature {
-            Feature::Edge(_) => Division {
-                vertical: skin.vertical_wall_divisions,
-                horizontal: skin.horizontal_wall_divisions,
-                clip: skin.clip_over_bead_width.f64() * self.width,
-            },
+        let (division, width) = match was.feature {
+            Feature::Edge(_) => {
+                let division = Division {
+                    vertical: skin.vertical_wall_divisions,
+                    horizontal: skin.horizontal_wall_divisions,
+                    clip: skin.clip_over_bead_width.f64() * self.widths.wall,
+                };
+                (division, self.widths.wall)
+            }
             Feature::Infill if self.top => {
-                Division { vertical: skin.vertical_infill_divisions, horizontal: 1, clip: 0.0 }
+                let division = Division {
+                    vertical: skin.vertical_infill_divisions,
+                    horizontal: skin.horizontal_infill_divisions,
+                    clip: 0.0,
+                };
+                (division, self.widths.infill)
             }
             _ => return None,
         };
@@ -159,7 +183,7 @@ impl Knife<'_> {
             *whole = true;
             return None;
         };
-        let (heights, as_asked) = divided(&thread, division, self.height, self.width);
+        let (heights, as_asked) = divided(&thread, division, self.height, width);
         *whole |= !as_asked;
         Some(Cut { feature: was.feature, was: *was, heights })
     }
@@ -177,21 +201,36 @@ fn is_of_a_bead(span: &Span<'_>) -> bool {
 }
 
 /// Lays what is lower than the layer's own height, from the lowest up.
-fn lay_lower(pen: &mut Pen, cuts: &[Option<Cut>]) {
-    let mut lower: Vec<(i32, &Cut, &Thread)> = cuts
+fn lay_lower(pen: &mut Pen, cuts: &[Option<Cut>], hop_to_infill: bool) {
+    let mut lower: Vec<Lower<'_>> = cuts
         .iter()
         .flatten()
         .flat_map(|cut| {
-            let below = cut.heights.split_last().map_or(&[][..], |(_, below)| below);
-            below.iter().flatten().map(move |thread| (thread.start.z, cut, thread))
+            let (top, below) =
+                cut.heights.split_last().map_or((&[][..], &[][..]), |(top, below)| (top, below));
+            let top = top.first().map(|thread| thread.start.z);
+            below.iter().flatten().map(move |thread| Lower { cut, thread, top })
         })
         .collect();
-    lower.sort_by_key(|(z, ..)| *z);
-    for (_, cut, thread) in lower {
+    lower.sort_by_key(|bead| bead.thread.start.z);
+    for Lower { cut, thread, top } in lower {
         let (open, close) = cut.feature.tags();
         pen.push(open);
+        let hop = top.filter(|_| hop_to_infill && cut.feature == Feature::Infill);
+        if let (Some(z), Some(from)) = (hop, pen.nozzle().at) {
+            pen.go(Point3 { z, ..from }, cut.was.feed);
+            pen.go(Point3 { z, ..thread.start }, cut.was.feed);
+        }
         pen.go(thread.start, cut.was.feed);
         pen.thread(thread);
         pen.push(close);
     }
+}
+
+/// A bead that lies lower than its layer.
+struct Lower<'a> {
+    cut: &'a Cut,
+    thread: &'a Thread,
+    /// The height of the topmost bead of its cut.
+    top: Option<i32>,
 }

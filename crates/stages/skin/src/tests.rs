@@ -36,6 +36,7 @@ fn print(layers: u32) -> Skein {
     let facts = Facts {
         bead_width: Some(Micron(720)),
         layer_height: Some(Micron(400)),
+        infill_width: Some(Micron(720)),
         bead_section: Some(Section::Rectangle),
         ..Facts::default()
     };
@@ -109,6 +110,7 @@ fn the_clay_of_every_layer_stays() {
                 vertical_wall_divisions: vertical,
                 horizontal_wall_divisions: horizontal,
                 vertical_infill_divisions: vertical,
+                horizontal_infill_divisions: horizontal,
                 ..Skin::default()
             };
             let done = craft(&stage, print(3));
@@ -127,6 +129,95 @@ fn walls_side_by_side_keep_their_places_and_their_sense() {
     let edges: Vec<_> =
         beads(&done, 1).into_iter().filter(|bead| matches!(bead.0, Feature::Edge(_))).collect();
     assert_eq!(edges.iter().map(|bead| bead.4).collect::<Vec<_>>()[..2], [(540, 540), (180, 180)]);
+}
+
+/// The infill beads of the topmost layer of a print of two.
+fn top_infill(stage: &Skin) -> Vec<Thread> {
+    let done = craft(stage, print(2));
+    let mut nozzle = done.nozzles()[1];
+    let mut threads = Vec::new();
+    for span in spans(&done.layers[1].lines) {
+        if let (Span::Thread(lines), Feature::Infill) = (span, nozzle.feature) {
+            threads.push(Thread::read(lines, &nozzle).expect("a thread"));
+        }
+        span.lines().iter().for_each(|line| nozzle.follow(line));
+    }
+    threads
+}
+
+#[test]
+fn infill_side_by_side_goes_there_and_back_around_where_it_lay() {
+    let stage = |horizontal| Skin {
+        vertical_wall_divisions: 1,
+        vertical_infill_divisions: 1,
+        horizontal_infill_divisions: horizontal,
+        ..Skin::default()
+    };
+    // Two rows 0.72 apart become four, 0.36 apart, and of three the one in the middle stays.
+    for (count, threads, heights) in
+        [(2, 2, vec![1820, 2180, 2540, 2900]), (3, 4, vec![1760, 2000, 2240, 2480, 2720, 2960])]
+    {
+        let infill = top_infill(&stage(count));
+        assert_eq!(infill.len(), threads);
+        let mut rows: Vec<i32> = Vec::new();
+        for (from, piece) in infill.iter().flat_map(Thread::pieces) {
+            let to = piece.step.to;
+            if from.y == to.y && (from.x - to.x).abs() > 14_000 {
+                rows.push(from.y);
+            }
+            assert!(from.x.min(to.x) >= 2000 && from.x % 40_000 <= 18_000 + 720, "{from:?}");
+        }
+        rows.sort_unstable();
+        rows.dedup();
+        assert!(heights.iter().all(|height| rows.contains(height)), "{rows:?}");
+        let flow = infill[0].stretches[0].flow.f64();
+        assert!((flow * f64::from(count) - 1.0).abs() < 0.1, "{flow}");
+    }
+}
+
+#[test]
+fn what_is_too_short_for_beads_side_by_side_stays_and_is_said() {
+    let text = String::from_utf8(print(1).write()).expect("text");
+    let cut = text.find("(<infill>)").expect("an infill");
+    let short = "(<infill>)\nG1 X2 Y2 Z0.4 F1200\nM101\nG1 X2.2 Y2 Z0.4 F960\nM103\n(</infill>)\n(</nestedRing>)\n(</layer>)\n";
+    let skein = Skein::read(format!("{}{short}", &text[..cut]).as_bytes()).expect("a skein");
+    let stage = Skin {
+        layers_from: 0,
+        vertical_wall_divisions: 1,
+        vertical_infill_divisions: 1,
+        horizontal_infill_divisions: 2,
+        ..Skin::default()
+    };
+    let mut notes = Notes::default();
+    assert_eq!(beads(&stage.craft(skein.clone(), &mut notes).expect("skin"), 0), beads(&skein, 0));
+    assert!(!notes.is_empty());
+}
+
+#[test]
+fn the_way_to_lower_infill_can_lead_over_the_layer() {
+    let highest_travels = |hop| {
+        let stage = Skin { hop_when_extruding_infill: hop, ..Skin::default() };
+        let done = craft(&stage, print(2));
+        let mut was = done.nozzles()[1];
+        let mut lower = Vec::new();
+        for line in &done.layers[1].lines {
+            let before = was;
+            was.follow(line);
+            if let (false, Some(from), Some(to)) = (was.on, before.at, line.as_move().map(|step| step.to))
+                && to.z == 400
+                && was.feature == Feature::Infill
+            {
+                lower.push((from.z, from.x != to.x || from.y != to.y));
+            }
+        }
+        lower
+    };
+    assert_eq!(highest_travels(false), [(400, true), (400, true)]);
+    assert_eq!(
+        highest_travels(true),
+        [(600, false), (600, false)],
+        "straight down from the height of the layer"
+    );
 }
 
 #[test]

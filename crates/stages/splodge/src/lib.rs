@@ -158,7 +158,7 @@ fn lay(
         }
         for line in span.lines() {
             // The blob has started the clay already.
-            if !(*line == Line::On && pen.nozzle().on) {
+            if !(matches!(line, Line::On) && pen.nozzle().on) {
                 pen.pass(line.clone(), &was);
             } else {
                 pen.flow(was.flow);

@@ -67,9 +67,9 @@ fn x1_a_straight_line_stays() {
     );
 }
 
-/// stages_tests.md X2 and X3.
+/// stages_tests.md X2, X3 and, in `radius`, X7.
 #[test]
-fn x2_x3_a_circle_grows_and_a_hole_more() {
+fn x2_x3_x7_a_circle_grows_and_a_hole_more_and_both_stay_closed() {
     assert!((radius(&original(0.72), 0.72, false) - 5.0059).abs() < 0.0005);
     assert!((radius(&original(0.72), 0.72, true) - 5.0190).abs() < 0.0005);
 }
