@@ -108,18 +108,29 @@ impl Trail {
 
     fn put(&mut self, key: Key, look: &Look) {
         let since = look.way - self.shortest_turn();
-        let slot = self.slot_of(key);
-        if let Some(slot) = self.slots.get_mut(slot)
-            && slot.as_ref().is_none_or(|(found, before)| *found != key || before.way <= since)
-        {
-            self.filled += usize::from(slot.is_none());
-            *slot = Some((key, *look));
+        let [one, other] = self.slots_of(key).map(|slot| self.slots.get(slot).copied().flatten());
+        let is_other = match (one, other) {
+            (Some((found, _)), _) if found == key => false,
+            (_, Some((found, _))) if found == key => true,
+            // The older one goes.
+            (Some((_, one)), Some((_, other))) => other.way < one.way,
+            (one, _) => one.is_some(),
+        };
+        let kept = if is_other { other } else { one };
+        if kept.is_none_or(|(found, before)| found != key || before.way <= since) {
+            self.filled += usize::from(kept.is_none());
+            let [one, other] = self.slots_of(key);
+            if let Some(slot) = self.slots.get_mut(if is_other { other } else { one }) {
+                *slot = Some((key, *look));
+            }
         }
     }
 
-    fn slot_of(&self, key: Key) -> usize {
+    /// A key may stand in either of two slots.
+    fn slots_of(&self, key: Key) -> [usize; 2] {
         // Without slots it is none of them.
-        key.mixed() & self.slots.len().wrapping_sub(1)
+        let slot = key.mixed() & self.slots.len().wrapping_sub(1);
+        [slot, slot ^ 1]
     }
 
     /// The nearest place beside `here` where the thread went the same way a turn ago or earlier, but not before it had
@@ -169,9 +180,10 @@ impl Trail {
 
     /// What is kept for a cell from a turn before `here` or earlier.
     fn earlier(&self, key: Key, here: &Look, since: f64) -> Option<&Look> {
-        let (found, look) = self.slots.get(self.slot_of(key))?.as_ref()?;
+        let slots = self.slots_of(key).into_iter().filter_map(|slot| self.slots.get(slot)?.as_ref());
+        let (_, look) = slots.into_iter().find(|(found, _)| *found == key)?;
         let until = here.way - self.shortest_turn();
-        (*found == key && look.way >= since && look.way <= until).then_some(look)
+        (look.way >= since && look.way <= until).then_some(look)
     }
 
     /// A turn is no shorter; a thread that is at the same place again sooner has only wriggled.
@@ -185,12 +197,14 @@ impl Trail {
 }
 
 impl Key {
-    /// Odd constants with evenly spread bits: 2⁶⁴ over the golden ratio, and a prime.
+    /// Cells that follow each other get slots that have nothing to do with each other: else one piece of the way could
+    /// push out another. Odd constants with evenly spread bits: 2⁶⁴ over the golden ratio, and a prime.
     fn mixed(self) -> usize {
         let place = u64::from(self.column as u32) << 32 | u64::from(self.row as u32);
         let quarter = u64::from(self.quarter.0) << 1 | u64::from(self.quarter.1);
-        let mixed = (place ^ quarter.wrapping_mul(0xD6E8_FEB8_6659_FD93)).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-        (mixed >> 40) as usize
+        let mixed = (place ^ quarter << 30).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        let mixed = (mixed ^ mixed >> 32).wrapping_mul(0xD6E8_FEB8_6659_FD93);
+        (mixed ^ mixed >> 32) as usize
     }
 }
 

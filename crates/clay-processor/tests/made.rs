@@ -143,7 +143,8 @@ proptest! {
         let found = report.pitches[0];
         prop_assert!((found.rise.expect("whole turns") / pitch - 1.0).abs() < 0.02, "{:?}", found);
         let steepest = found.steepest.expect("it lies above itself");
-        prop_assert!((steepest.rise / (pitch * more) - 1.0).abs() < 0.1, "{:?}", found);
+        // Its whole rise is reached in one place, and what counts is more than a corner.
+        prop_assert!((steepest.rise / (pitch * more) - 1.0).abs() < 0.15, "{:?}", found);
         let turn = (steepest.index - first) / pot.corners;
         prop_assert!(turn == odd || turn == odd + 1, "in turn {turn}: {:?}", found);
         let verdict = report.verdicts.iter().find(|verdict| verdict.rule == Rule::SpiralPitch);
