@@ -1,7 +1,7 @@
 //! A layer of the base: one thread from the rim to the middle, or from the middle to the rim.
 
 use crate::track::{Spot, Track};
-use shape::plane::offset;
+use shape::plane::{offset, simplified};
 use skein::Ring;
 
 /// The rings of a base layer, the outermost first, evenly spread so that the last one closes the middle.
@@ -16,19 +16,16 @@ impl Rings {
     /// The rings inside the outermost, about so far apart; `None` when they do not lie one inside the other down to one
     /// middle.
     pub fn inside(outermost: &Ring, wanted: f64) -> Option<Self> {
-        let region = std::slice::from_ref(outermost);
-        let depth = depth(region, wanted / 50.0);
+        let tolerance = wanted / FINENESS;
+        let coarse = nested(&simplified(outermost, tolerance)?, wanted, usize::MAX, tolerance)?;
+        let innermost = coarse.last().unwrap_or(outermost);
+        let depth = wanted * (coarse.len() as f64 - 1.0) + depth(innermost, wanted, tolerance);
         let count = (depth / wanted + 0.5).round().max(1.0);
         // The innermost ring lies half a pitch around the middle, so it closes it.
         let pitch = depth / (count - 0.5);
-        let mut tracks = vec![Track::new(outermost)?];
-        for ring in 1..count as usize {
-            match offset(region, -pitch * ring as f64).as_slice() {
-                [inner] => tracks.push(Track::new(inner)?),
-                _ => return None,
-            }
-        }
-        Some(Self { tracks, pitch })
+        let rings = nested(outermost, pitch, count as usize, tolerance)?;
+        let tracks = rings.iter().filter_map(Track::new).collect::<Vec<_>>();
+        (tracks.len() == count as usize).then_some(Self { tracks, pitch })
     }
 
     /// The thread that ends next to a place: on the outermost ring when it runs outwards, else in the middle.
@@ -49,14 +46,31 @@ impl Rings {
     }
 }
 
-/// How deep the middle of a region lies inside, to a precision: where what is left of it vanishes.
-fn depth(region: &[Ring], precision: f64) -> f64 {
-    let area: f64 = region.iter().map(|ring| ring.area() * 1e6).sum();
-    // No circle inside is larger than the region.
-    let (mut low, mut high) = (0.0, (area.max(0.0) / std::f64::consts::PI).sqrt() + precision);
+/// Rings of the base keep no corner nearer to a straight line than this share of their distance: each is made from the
+/// one around it, and what they need not follow costs no work.
+const FINENESS: f64 = 100.0;
+
+/// Rings one inside the other, so far apart, the given one first, until there is room for none or there are as many as
+/// wanted; `None` where one falls apart.
+fn nested(outermost: &Ring, pitch: f64, most: usize, tolerance: f64) -> Option<Vec<Ring>> {
+    let mut rings = vec![outermost.clone()];
+    while rings.len() < most {
+        let mut inner = offset(&rings[rings.len() - 1..], -pitch);
+        match (inner.pop(), inner.pop()) {
+            (None, _) => break,
+            (Some(ring), None) => rings.push(simplified(&ring, tolerance).unwrap_or(ring)),
+            _ => return None,
+        }
+    }
+    Some(rings)
+}
+
+/// How deep the middle of a ring lies inside it, at most so deep, to a precision: where what is left of it vanishes.
+fn depth(ring: &Ring, most: f64, precision: f64) -> f64 {
+    let (mut low, mut high) = (0.0, most);
     while high - low > precision {
         let middle = f64::midpoint(low, high);
-        if offset(region, -middle).is_empty() { high = middle } else { low = middle }
+        if offset(std::slice::from_ref(ring), -middle).is_empty() { high = middle } else { low = middle }
     }
     low
 }

@@ -8,6 +8,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod texture;
+mod thin;
 mod track;
 mod turn;
 

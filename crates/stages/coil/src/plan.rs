@@ -2,14 +2,15 @@
 
 use crate::base::Rings;
 use crate::lane::Lane;
-use crate::lay::{Course, Thread};
+use crate::lay::{Course, Step, Thread};
 use crate::source::{Source, Wall};
 use crate::texture::Waves;
+use crate::thin::thinned;
 use crate::track::{Spot, Track, between, distance, point};
-use crate::turn::Turn;
+use crate::turn::{Corner, Turn};
 use crate::{Base, Coil};
 use rayon::prelude::*;
-use shape::plane::offset;
+use shape::plane::{offset, outside};
 use skein::{Feature, Line, Notes, Side};
 
 /// What becomes of a layer.
@@ -42,6 +43,8 @@ pub struct Plan<'a> {
     /// The role of each layer.
     pub roles: Vec<Role>,
     lanes: Vec<Option<Lane>>,
+    /// The way of each turn, from the lane below to its own.
+    turns: Vec<Option<Turn>>,
     bases: Vec<Option<(Rings, Vec<Spot>)>>,
 }
 
@@ -60,8 +63,9 @@ impl<'a> Plan<'a> {
             .map(|(index, (source, anchor))| lane(coil, source, index, anchor.as_ref()?))
             .collect();
         finish(&mut roles);
+        let turns = (0..sources.len()).into_par_iter().map(|index| turn(&roles, &lanes, index)).collect();
         let bases = bases(sources, &roles, &lanes, rings);
-        Self { coil, sources, roles, lanes, bases }
+        Self { coil, sources, roles, lanes, turns, bases }
     }
 
     /// The lines of a layer that does not stay as it is.
@@ -99,24 +103,22 @@ impl<'a> Plan<'a> {
     fn base(&self, index: usize, goes_on: bool) -> Vec<Line> {
         let Some((rings, way)) = &self.bases[index] else { return Vec::new() };
         let source = &self.sources[index];
-        let height = source.bead.height.um();
+        let (top, gap) = (f64::from(source.top), source.bead.height.um());
         let width = rings.pitch / self.coil.base_spacing.f64() * self.coil.base_flow.f64();
-        let course =
-            Course { heights: (source.top, source.top), gaps: (height, height), width, bead: source.bead };
+        let course = Course { width, bead: source.bead };
         let mut thread = Thread::default();
         let Some(first) = way.first() else { return Vec::new() };
         match self.below(index).filter(|_| goes_on) {
             // Over one bead it climbs from the layer below, with all of its clay: none is missing and no nozzle stands.
             Some((below, _)) => {
-                let rest = behind(way, rings.pitch);
-                let ramp = [*first, rest.first().copied().unwrap_or(*first)];
-                thread.lay(&ramp, Course { heights: (below.top, source.top), ..course });
-                thread.lay(&rest, course);
+                let mut climb = vec![Step { at: *first, height: f64::from(below.top), gap }];
+                climb.extend(Step::level(&behind(way, rings.pitch), top, gap));
+                thread.lay(&climb, course);
             }
             None => {
                 thread.travel(*first, source.top);
                 thread.start();
-                thread.lay(way, course);
+                thread.lay(&Step::level(way, top, gap), course);
             }
         }
         if !self.goes_on(index) {
@@ -127,80 +129,100 @@ impl<'a> Plan<'a> {
 
     fn wall(&self, index: usize, notes: &mut Notes) -> Vec<Line> {
         let source = &self.sources[index];
-        let (Some(lane), Ok(wall)) = (&self.lanes[index], &source.wall) else { return Vec::new() };
+        let (Some(lane), Some(turn), Ok(wall)) = (&self.lanes[index], &self.turns[index], &source.wall)
+        else {
+            return Vec::new();
+        };
         let height = source.bead.height.um();
         let tolerance = source.bead.width.um() / FINENESS;
-        let flat = Turn::flat(lane).thinned(tolerance).way;
-        let level = Course {
-            heights: (source.top, source.top),
-            gaps: (height, height),
-            width: wall.pitch,
-            bead: source.bead,
-        };
+        let course = Course { width: wall.pitch, bead: source.bead };
         let mut thread = Thread::default();
-        let (first, last) = match self.roles[index] {
-            Role::Turn { first, last } => (first, last),
-            _ => {
-                thread.travel(lane.start(), source.top);
-                thread.start();
-                thread.lay(&flat, level);
-                if !self.goes_on(index) {
-                    thread.stop();
-                }
-                return thread.finish();
-            }
-        };
-        let bottom = self.below(index).map_or(source.top - source.bead.height.0, |(below, _)| below.top);
-        let climb = (bottom, source.top);
-        if first {
-            // What comes from a base or a flat turn is there already; over layers the thread begins here.
-            match self.below(index) {
-                Some((_, Role::Layered | Role::Turn { .. })) | None => {
-                    thread.travel(lane.start(), bottom);
-                    thread.start();
-                }
-                _ => {}
-            }
-            self.grounded(index, &flat, notes);
-            thread.lay(&flat, Course { heights: climb, gaps: (0.0, height), ..level });
-        } else if let (Some(below), Some((source_below, _))) = (&self.lanes[index - 1], self.below(index)) {
-            let turn = Turn::blended(below, lane, source.bead.width.um() / 2.0).thinned(tolerance);
-            if turn.reach.0 > source.bead.width.um() / 2.0 {
-                notes.spot(index, point(turn.reach.1), OVERHANG);
-                // The next turn begins on this outline, while what is below it there began on the one below.
-                if !last {
-                    notes.spot(index + 1, point(turn.reach.1), OVERHANG);
-                }
-            }
-            let gaps = (source_below.bead.height.um(), height);
-            thread.lay(&turn.way, Course { heights: climb, gaps, ..level });
+        let below = self.below(index);
+        let start = below
+            .filter(|_| matches!(self.roles[index], Role::Turn { .. }))
+            .map_or(source.top, |it| it.0.top);
+        // What comes from a base or a turn is there already; over layers the thread begins here.
+        if !index.checked_sub(1).is_some_and(|below| self.goes_on(below)) {
+            thread.travel(lane.start(), start);
+            thread.start();
         }
+        let mut last = false;
+        let mut steps = match self.roles[index] {
+            Role::Turn { first: true, last: ends } => {
+                last = ends;
+                self.grounded(index, lane, notes);
+                climbing(turn, source, start, |_| 0.0)
+            }
+            Role::Turn { first: false, last: ends } => {
+                last = ends;
+                if turn.reach.0 > source.bead.width.um() / 2.0 {
+                    notes.spot(index, point(turn.reach.1), OVERHANG);
+                    // The next turn begins on this outline, while what is below it there began on the one below.
+                    if !last {
+                        notes.spot(index + 1, point(turn.reach.1), OVERHANG);
+                    }
+                }
+                // What is below has not risen to where this turn begins, but where it ends.
+                let rise = below.map_or(height, |(below, _)| below.bead.height.um());
+                let mut share_below = self.turns[index - 1].as_ref().map(Turn::shares);
+                climbing(turn, source, start, |low| {
+                    rise * (1.0 - share_below.as_mut().map_or(1.0, |share| share(low)))
+                })
+            }
+            _ => Step::level(&lane.whole(), f64::from(source.top), height),
+        };
+        steps = thinned(&steps, tolerance);
+        thread.lay(&steps, course);
         if last {
-            thread.lay(&flat, Course { gaps: (height, 0.0), ..level });
+            let rim = rim(lane, turn, source, height);
+            let rim = thinned(&rim, tolerance);
+            thread.lay(&rim, course);
             thread.stop();
             for _ in 0..self.coil.rim_turns {
-                flat.iter().skip(1).for_each(|at| thread.travel(*at, source.top));
+                rim.iter().skip(1).for_each(|step| thread.travel(step.at, source.top));
             }
+        } else if !self.goes_on(index) {
+            thread.stop();
         }
         thread.finish()
     }
 
-    /// Says where the first turn of a wall finds no clay below it.
-    fn grounded(&self, index: usize, way: &[Spot], notes: &mut Notes) {
+    /// Says when the first turn of a wall finds no clay below it.
+    fn grounded(&self, index: usize, lane: &Lane, notes: &mut Notes) {
         let Some((below, role)) = self.below(index) else { return };
-        let half = self.sources[index].bead.width.um() / 2.0;
-        let beads = match (role, &below.wall) {
-            (Role::Turn { .. } | Role::Flat, Ok(wall)) => &wall.beads,
-            _ => &below.outlines,
-        };
-        let beads: Vec<Track> = beads.iter().filter_map(Track::new).collect();
-        let filled = matches!(role, Role::Base { .. } | Role::Layered);
-        let near = |at: &Spot| beads.iter().any(|bead| distance(bead.at(bead.nearest(*at)), *at) <= half);
-        let ground = |at: &&Spot| (filled && below.holds(point(**at))) || near(at);
-        if let Some(at) = way.iter().find(|at| !ground(at)) {
-            notes.spot(index, point(*at), OVERHANG);
+        let mut clay = below.outlines.clone();
+        if let (Role::Turn { .. } | Role::Flat, Ok(Wall { beads, pitch, full: true })) = (role, &below.wall) {
+            let inside = beads.last().map(|bead| offset(std::slice::from_ref(bead), -pitch / 2.0));
+            clay.extend(inside.unwrap_or_default().into_iter().map(skein::Ring::reversed));
+        }
+        let way = skein::Ring(lane.whole().into_iter().map(point).collect());
+        if !outside(&[way], &clay).is_empty() {
+            notes.layer(index, OVERHANG);
         }
     }
+}
+
+/// The steps of a turn that climbs by the height of its layer; `hollow` says how far the place that it has on the lane below
+/// lies under the height from which it climbs.
+fn climbing(turn: &Turn, source: &Source, start: i32, mut hollow: impl FnMut(f64) -> f64) -> Vec<Step> {
+    let rise = f64::from(source.top) - f64::from(start);
+    let step = |corner: &Corner| {
+        let up = rise * corner.share;
+        Step { at: corner.at, height: f64::from(start) + up, gap: up + hollow(corner.low) }
+    };
+    turn.corners.iter().map(step).collect()
+}
+
+/// The steps of the level turn behind the last: it fills what that one has left open below its end.
+fn rim(lane: &Lane, turn: &Turn, source: &Source, height: f64) -> Vec<Step> {
+    let mut share = turn.shares();
+    let top = f64::from(source.top);
+    let step = |(place, at): (usize, &Spot)| Step {
+        at: *at,
+        height: top,
+        gap: height * (1.0 - share(place as f64)),
+    };
+    lane.whole().iter().enumerate().map(step).collect()
 }
 
 const OVERHANG: &str = "the turn reaches more than half a bead over the one below: it may sag";
@@ -319,7 +341,7 @@ fn anchors(sources: &[Source], roles: &[Role]) -> Vec<Option<(Spot, usize)>> {
     anchors
 }
 
-/// The way of a turn.
+/// The closed way of a wall.
 fn lane(coil: &Coil, source: &Source, index: usize, (anchor, turns): &(Spot, usize)) -> Option<Lane> {
     let wall = source.wall.as_ref().ok()?;
     let waved = if coil.wave_height.0 > 0 { waved(coil, wall, index, *anchor) } else { None };
@@ -328,6 +350,17 @@ fn lane(coil: &Coil, source: &Source, index: usize, (anchor, turns): &(Spot, usi
     let outermost = tracks.first()?;
     let step = if tracks.len() > 1 { coil.seam_step.f64() * wall.pitch * (*turns as f64 - 1.0) } else { 0.0 };
     Lane::new(&tracks, outermost.nearest(*anchor) + step, wall.pitch)
+}
+
+/// The way of a turn: from the lane below, or on its own where that is level.
+fn turn(roles: &[Role], lanes: &[Option<Lane>], index: usize) -> Option<Turn> {
+    let lane = lanes[index].as_ref()?;
+    match roles[index] {
+        Role::Turn { first: false, .. } => {
+            Some(Turn::blended(lanes.get(index.checked_sub(1)?)?.as_ref()?, lane))
+        }
+        _ => Some(Turn::flat(lane)),
+    }
 }
 
 /// The wall with waves, if its beads still lie one inside the other.

@@ -97,11 +97,6 @@ impl Source {
         lines.extend([close, Line::Close(Tag::NestedRing), Line::Close(Tag::Layer)]);
         lines
     }
-
-    /// Whether there is clay of this layer under a place.
-    pub fn holds(&self, at: Point) -> bool {
-        self.outlines.iter().filter(|outline| outline.contains(at)).count() % 2 == 1
-    }
 }
 
 /// A layer is solid when its infill takes so much of the room between the walls.
