@@ -1,61 +1,137 @@
-//! A layer of the base: one thread from the rim to the middle, or from the middle to the rim.
+//! A layer of the base: one thread from the rim to the middle or to the far side, or the other way round.
 
+use crate::Base;
 use crate::track::{Spot, Track};
+use crate::zigzag::Zigzag;
 use shape::plane::{offset, simplified};
 use skein::Ring;
 
-/// The rings of a base layer, the outermost first, evenly spread so that the last one closes the middle.
+/// What a layer of the base is made of: the outermost ring, which carries the wall, and what fills it.
 #[derive(Clone, Debug)]
-pub struct Rings {
-    tracks: Vec<Track>,
-    /// How far apart they lie, in microns.
-    pub pitch: f64,
+pub struct Floor {
+    outermost: Track,
+    /// How wide its bead is, in microns.
+    width: f64,
+    inside: Inside,
+    /// How far apart the beads inside lie, in microns.
+    pitch: f64,
 }
 
-impl Rings {
-    /// The rings inside the outermost, about so far apart; `None` when they do not lie one inside the other down to one
-    /// middle.
-    pub fn inside(outermost: &Ring, wanted: f64) -> Option<Self> {
-        let tolerance = wanted / FINENESS;
-        let coarse = nested(&simplified(outermost, tolerance)?, wanted, usize::MAX, tolerance)?;
-        let innermost = coarse.last().unwrap_or(outermost);
-        let depth = wanted * (coarse.len() as f64 - 1.0) + depth(innermost, wanted, tolerance);
-        let count = (depth / wanted + 0.5).round().max(1.0);
-        // The innermost ring lies half a pitch around the middle, so it closes it.
-        let pitch = depth / (count - 0.5);
-        let rings = nested(outermost, pitch, count as usize, tolerance)?;
-        let tracks = rings.iter().filter_map(Track::new).collect::<Vec<_>>();
-        (tracks.len() == count as usize).then_some(Self { tracks, pitch })
+#[derive(Clone, Debug)]
+enum Inside {
+    /// The other rings, the outermost first.
+    Rings(Vec<Track>),
+    Lines(Zigzag),
+}
+
+/// A part of a thread of the base, and how wide the room for its bead is, in microns.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its corners.
+    pub way: Vec<Spot>,
+    /// How wide the room for its bead is, in microns.
+    pub width: f64,
+}
+
+impl Floor {
+    /// The floor within a ring of beads of a width, about `wanted` apart; `None` when it cannot be one thread. Where lines
+    /// would fall apart there are rings.
+    pub fn inside(outermost: &Ring, width: f64, wanted: f64, base: Base) -> Option<Self> {
+        let lines = if base == Base::ZigZag { Zigzag::inside(outermost, width, wanted) } else { None };
+        let (inside, pitch) = match lines {
+            Some(lines) => {
+                let pitch = lines.pitch;
+                (Inside::Lines(lines), pitch)
+            }
+            None => rings(outermost, width, wanted)?,
+        };
+        Some(Self { outermost: Track::new(outermost)?, width, inside, pitch })
     }
 
-    /// The thread that ends next to a place: on the outermost ring when it runs outwards, else in the middle.
-    ///
-    /// It goes along each ring until it is one pitch short of where it came onto it, and there straight to the next, so
-    /// that neither rings nor links lie nearer to each other than a pitch. It is made from its end to its start.
-    pub fn thread(&self, end: Spot, outwards: bool) -> Vec<Spot> {
-        let mut way: Vec<Spot> = Vec::new();
-        let inwards = self.tracks.iter();
-        let order: Vec<&Track> = if outwards { inwards.collect() } else { inwards.rev().collect() };
-        for track in order {
-            let at = track.nearest(way.last().copied().unwrap_or(end));
-            let length = (track.length() - self.pitch).max(track.length() / 2.0);
-            way.extend(track.way(at, -length));
-        }
-        way.reverse();
-        way
+    /// Whether it is made of rings.
+    pub fn has_rings(&self) -> bool {
+        matches!(self.inside, Inside::Rings(_))
     }
+
+    /// Where the wall above may begin: as near to a place as the floor allows.
+    pub fn seam(&self, wanted: Spot) -> Spot {
+        match &self.inside {
+            Inside::Rings(_) => wanted,
+            Inside::Lines(lines) => lines.from(wanted).first().copied().unwrap_or(wanted),
+        }
+    }
+
+    /// The thread that ends next to a place: on the outermost ring when it runs outwards, else inside.
+    ///
+    /// It goes along each ring until it is one bead short of where it came onto it, and there straight to the next, so
+    /// that neither rings nor links lie nearer to each other than a bead. It is made from its end to its start.
+    pub fn thread(&self, end: Spot, outwards: bool) -> Vec<Part> {
+        let border = |from: Spot| around(&self.outermost, self.width, from);
+        let inside = |from: Spot, outwards: bool| match &self.inside {
+            Inside::Lines(lines) => lines.from(from).to_vec(),
+            Inside::Rings(rings) => {
+                let mut way: Vec<Spot> = Vec::new();
+                let order: Vec<&Track> =
+                    if outwards { rings.iter().collect() } else { rings.iter().rev().collect() };
+                for ring in order {
+                    way.extend(around(ring, self.pitch, way.last().copied().unwrap_or(from)));
+                }
+                way
+            }
+        };
+        let last = |way: &[Spot]| way.last().copied().unwrap_or(end);
+        let (border, inside) = if outwards {
+            let border = border(end);
+            let inside = inside(last(&border), true);
+            (border, inside)
+        } else {
+            let inside = inside(end, false);
+            (border(last(&inside)), inside)
+        };
+        let part = |mut way: Vec<Spot>, width: f64| {
+            way.reverse();
+            Part { way, width }
+        };
+        let (border, inside) = (part(border, self.width), part(inside, self.pitch));
+        let parts = if outwards { vec![inside, border] } else { vec![border, inside] };
+        parts.into_iter().filter(|part| part.way.len() > 1).collect()
+    }
+}
+
+/// The way back around a ring from where it is nearest to a place, until it is one bead short of there.
+fn around(ring: &Track, bead: f64, from: Spot) -> Vec<Spot> {
+    let length = (ring.length() - bead).max(ring.length() / 2.0);
+    ring.way(ring.nearest(from), -length)
+}
+
+/// The rings inside the outermost, evenly spread so that the last one closes the middle, and how far apart they lie;
+/// `None` when they do not lie one inside the other down to one middle.
+fn rings(outermost: &Ring, width: f64, wanted: f64) -> Option<(Inside, f64)> {
+    let tolerance = wanted / FINENESS;
+    let coarse = nested(simplified(outermost, tolerance)?, wanted, wanted, usize::MAX, tolerance)?;
+    let innermost = coarse.last()?;
+    let depth = wanted * (coarse.len() as f64 - 1.0) + depth(innermost, wanted, tolerance);
+    // The innermost ring lies half a pitch around the middle, so it closes it.
+    let room = (depth - width / 2.0).max(0.0);
+    let count = (room / wanted).round();
+    let pitch = if count > 0.0 { room / count } else { width };
+    let rings = nested(outermost.clone(), (width + pitch) / 2.0, pitch, count as usize + 1, tolerance)?;
+    // A middle that is a line may vanish within rounding.
+    let tracks: Vec<Track> = rings.iter().skip(1).filter_map(Track::new).collect();
+    Some((Inside::Rings(tracks), pitch))
 }
 
 /// Rings of the base keep no corner nearer to a straight line than this share of their distance: each is made from the
 /// one around it, and what they need not follow costs no work.
 const FINENESS: f64 = 100.0;
 
-/// Rings one inside the other, so far apart, the given one first, until there is room for none or there are as many as
-/// wanted; `None` where one falls apart.
-fn nested(outermost: &Ring, pitch: f64, most: usize, tolerance: f64) -> Option<Vec<Ring>> {
-    let mut rings = vec![outermost.clone()];
+/// Rings one inside the other, the given one first, the second so far inside it and the others so far apart, until there
+/// is room for none or there are as many as wanted; `None` where one falls apart.
+fn nested(outermost: Ring, first: f64, pitch: f64, most: usize, tolerance: f64) -> Option<Vec<Ring>> {
+    let mut rings = vec![outermost];
     while rings.len() < most {
-        let mut inner = offset(&rings[rings.len() - 1..], -pitch);
+        let distance = if rings.len() == 1 { first } else { pitch };
+        let mut inner = offset(&rings[rings.len() - 1..], -distance);
         match (inner.pop(), inner.pop()) {
             (None, _) => break,
             (Some(ring), None) => rings.push(simplified(&ring, tolerance).unwrap_or(ring)),

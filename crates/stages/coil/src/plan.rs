@@ -1,12 +1,12 @@
 //! What becomes of each layer, and where each turn begins.
 
-use crate::base::Rings;
+use crate::base::{Floor, Part};
 use crate::lane::Lane;
 use crate::lay::{Course, Step, Thread};
 use crate::source::{Source, Wall};
 use crate::texture::Waves;
 use crate::thin::thinned;
-use crate::track::{Spot, Track, between, distance, point};
+use crate::track::{Spot, Track, behind, point};
 use crate::turn::{Corner, Turn};
 use crate::{Base, Coil};
 use rayon::prelude::*;
@@ -45,17 +45,17 @@ pub struct Plan<'a> {
     lanes: Vec<Option<Lane>>,
     /// The way of each turn, from the lane below to its own.
     turns: Vec<Option<Turn>>,
-    bases: Vec<Option<(Rings, Vec<Spot>)>>,
+    bases: Vec<Option<Vec<Part>>>,
 }
 
 impl<'a> Plan<'a> {
     /// Decides what each layer becomes, and says why one stays as it is.
     pub fn new(coil: &'a Coil, sources: &'a [Source], notes: &mut Notes) -> Self {
         let floors = floors(sources);
-        let rings: Vec<Option<Rings>> =
-            sources.par_iter().zip(&floors).map(|(source, floor)| rings(coil, source, *floor)).collect();
-        let mut roles = roles(coil, sources, &rings, &floors, notes);
-        let anchors = anchors(sources, &roles);
+        let made: Vec<Option<Floor>> =
+            sources.par_iter().zip(&floors).map(|(source, floor)| made(coil, source, *floor)).collect();
+        let mut roles = roles(coil, sources, &made, &floors, notes);
+        let anchors = anchors(sources, &roles, &made);
         let lanes: Vec<Option<Lane>> = sources
             .par_iter()
             .zip(&anchors)
@@ -64,7 +64,7 @@ impl<'a> Plan<'a> {
             .collect();
         finish(&mut roles);
         let turns = (0..sources.len()).into_par_iter().map(|index| turn(&roles, &lanes, index)).collect();
-        let bases = bases(sources, &roles, &lanes, rings);
+        let bases = bases(sources, &roles, &lanes, made);
         Self { coil, sources, roles, lanes, turns, bases }
     }
 
@@ -101,25 +101,29 @@ impl<'a> Plan<'a> {
     }
 
     fn base(&self, index: usize, goes_on: bool) -> Vec<Line> {
-        let Some((rings, way)) = &self.bases[index] else { return Vec::new() };
+        let Some(parts) = &self.bases[index] else { return Vec::new() };
         let source = &self.sources[index];
         let (top, gap) = (f64::from(source.top), source.bead.height.um());
-        let width = rings.pitch / self.coil.base_spacing.f64() * self.coil.base_flow.f64();
-        let course = Course { width, bead: source.bead };
         let mut thread = Thread::default();
-        let Some(first) = way.first() else { return Vec::new() };
-        match self.below(index).filter(|_| goes_on) {
-            // Over one bead it climbs from the layer below, with all of its clay: none is missing and no nozzle stands.
-            Some((below, _)) => {
-                let mut climb = vec![Step { at: *first, height: f64::from(below.top), gap }];
-                climb.extend(Step::level(&behind(way, rings.pitch), top, gap));
-                thread.lay(&climb, course);
+        let mut here: Option<Step> = None;
+        for part in parts {
+            let Some(first) = part.way.first() else { continue };
+            let mut steps = Step::level(&part.way, top, gap);
+            match (here, self.below(index).filter(|_| goes_on)) {
+                (Some(here), _) => steps.insert(0, here),
+                // Over one bead it climbs from the layer below, with all of its clay: none is missing and no nozzle
+                // stands.
+                (None, Some((below, _))) => {
+                    steps = Step::level(&behind(&part.way, part.width), top, gap);
+                    steps.insert(0, Step { at: *first, height: f64::from(below.top), gap });
+                }
+                (None, None) => {
+                    thread.travel(*first, source.top);
+                    thread.start();
+                }
             }
-            None => {
-                thread.travel(*first, source.top);
-                thread.start();
-                thread.lay(&Step::level(way, top, gap), course);
-            }
+            thread.lay(&steps, Course { width: part.width * self.coil.base_flow.f64(), bead: source.bead });
+            here = steps.last().copied();
         }
         if !self.goes_on(index) {
             thread.stop();
@@ -250,17 +254,18 @@ fn floors(sources: &[Source]) -> Vec<bool> {
     floors
 }
 
-/// The rings of a layer that may be one of the base.
-fn rings(coil: &Coil, source: &Source, floor: bool) -> Option<Rings> {
-    let wall = source.wall.as_ref().ok().filter(|_| floor)?;
-    Rings::inside(wall.beads.first()?, source.bead.spacing().um() * coil.base_spacing.f64())
+/// What a layer may be made of that may be one of the base.
+fn made(coil: &Coil, source: &Source, floor: bool) -> Option<Floor> {
+    let wall = source.wall.as_ref().ok().filter(|_| floor && coil.base != Base::AsFilled)?;
+    let spacing = source.bead.spacing().um();
+    Floor::inside(wall.beads.first()?, spacing, spacing * coil.base_spacing.f64(), coil.base)
 }
 
 /// What each layer becomes, but for what the one above must be known.
 fn roles(
     coil: &Coil,
     sources: &[Source],
-    rings: &[Option<Rings>],
+    made: &[Option<Floor>],
     floors: &[bool],
     notes: &mut Notes,
 ) -> Vec<Role> {
@@ -286,14 +291,20 @@ fn roles(
                 notes.layer(index, "it stays as fill laid it: it closes what is open below");
                 Role::Layered
             }
-            _ if floors[index] && !on_turn => match (&rings[index], coil.base) {
+            _ if floors[index] && !on_turn => match (&made[index], coil.base) {
                 (_, Base::AsFilled) => Role::Layered,
                 (None, _) => {
                     notes.layer(index, "the base stays as fill laid it: it has no single middle to go round");
                     Role::Layered
                 }
-                (Some(_), Base::InAndOut) => {
-                    Role::Base { outwards: true, goes_on: matches!(below, Some(Role::Base { .. })) }
+                (Some(floor), base) => {
+                    if base == Base::ZigZag && floor.has_rings() {
+                        notes.layer(index, "lines would fall apart on it: the base goes round and round");
+                    }
+                    let alike = |below: &Floor| below.has_rings() == floor.has_rings();
+                    let on_base = matches!(below, Some(Role::Base { .. }));
+                    let goes_on = on_base && made[index - 1].as_ref().is_some_and(alike);
+                    Role::Base { outwards: true, goes_on }
                 }
             },
             None => Role::Flat,
@@ -321,13 +332,16 @@ fn finish(roles: &mut [Role]) {
 }
 
 /// A place on each wall where its seam would be if it did not move on, and how many turns there are below it.
-fn anchors(sources: &[Source], roles: &[Role]) -> Vec<Option<(Spot, usize)>> {
+fn anchors(sources: &[Source], roles: &[Role], made: &[Option<Floor>]) -> Vec<Option<(Spot, usize)>> {
     let mut anchors: Vec<Option<(Spot, usize)>> = Vec::with_capacity(sources.len());
-    for (source, role) in sources.iter().zip(roles) {
+    for (index, (source, role)) in sources.iter().zip(roles).enumerate() {
         let before = match role {
             Role::Turn { first: false, .. } => anchors.last().copied().flatten(),
-            Role::Turn { first: true, .. } | Role::Flat => match anchors.last() {
-                Some(Some((at, turns))) => Some((*at, *turns)),
+            Role::Turn { first: true, .. } | Role::Flat => match (anchors.last(), index.checked_sub(1)) {
+                (Some(Some((at, turns))), _) => Some((*at, *turns)),
+                (_, Some(below)) if matches!(roles[below], Role::Base { .. }) => {
+                    Some((made[below].as_ref().map_or(source.start, |floor| floor.seam(source.start)), 0))
+                }
                 _ => Some((source.start, 0)),
             },
             Role::Base { .. } | Role::Layered => None,
@@ -382,21 +396,20 @@ fn bases(
     sources: &[Source],
     roles: &[Role],
     lanes: &[Option<Lane>],
-    rings: Vec<Option<Rings>>,
-) -> Vec<Option<(Rings, Vec<Spot>)>> {
+    made: Vec<Option<Floor>>,
+) -> Vec<Option<Vec<Part>>> {
     let mut above: Option<Spot> = None;
-    let mut bases: Vec<Option<(Rings, Vec<Spot>)>> = Vec::with_capacity(sources.len());
-    let all = sources.iter().zip(roles).zip(lanes).zip(rings);
-    for (((source, role), lane), rings) in all.rev() {
-        let base = match (role, rings) {
-            (Role::Base { outwards, .. }, Some(rings)) => {
-                let way = rings.thread(above.unwrap_or(source.start), *outwards);
-                Some((rings, way))
+    let mut bases: Vec<Option<Vec<Part>>> = Vec::with_capacity(sources.len());
+    let all = sources.iter().zip(roles).zip(lanes).zip(made);
+    for (((source, role), lane), floor) in all.rev() {
+        let base = match (role, floor) {
+            (Role::Base { outwards, .. }, Some(floor)) => {
+                Some(floor.thread(above.unwrap_or(source.start), *outwards))
             }
             _ => None,
         };
         above = match (&base, lane) {
-            (Some((_, way)), _) => way.first().copied(),
+            (Some(parts), _) => parts.first().and_then(|part| part.way.first()).copied(),
             (None, Some(lane)) => Some(lane.start()),
             _ => None,
         };
@@ -404,19 +417,4 @@ fn bases(
     }
     bases.reverse();
     bases
-}
-
-/// What is left of a way behind a length from its start.
-fn behind(way: &[Spot], at: f64) -> Vec<Spot> {
-    let mut left = at;
-    for (index, side) in way.windows(2).enumerate() {
-        let length = distance(side[0], side[1]);
-        if length > left {
-            let mut rest = vec![between(side[0], side[1], left / length)];
-            rest.extend_from_slice(&way[index + 1..]);
-            return rest;
-        }
-        left -= length;
-    }
-    way.last().copied().into_iter().collect()
 }

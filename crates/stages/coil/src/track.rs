@@ -43,6 +43,21 @@ pub fn divided(way: &[Spot], step: f64) -> Vec<Spot> {
     fine
 }
 
+/// What is left of a way behind a length from its start.
+pub fn behind(way: &[Spot], at: f64) -> Vec<Spot> {
+    let mut left = at;
+    for (index, side) in way.windows(2).enumerate() {
+        let length = distance(side[0], side[1]);
+        if length > left {
+            let mut rest = vec![between(side[0], side[1], left / length)];
+            rest.extend_from_slice(&way[index + 1..]);
+            return rest;
+        }
+        left -= length;
+    }
+    way.last().copied().into_iter().collect()
+}
+
 /// The place of a point.
 pub fn spot(point: Point) -> Spot {
     [f64::from(point.x), f64::from(point.y)]

@@ -1,5 +1,6 @@
 //! The laws of a spiral, on pots made from formulas.
 
+mod floors;
 mod measure;
 mod pot;
 

@@ -1,0 +1,170 @@
+//! A layer of the base: lines there and back, all round within the outermost ring.
+//!
+//! ```text
+//! ╭───────────╮     The lowest line and the uppermost follow the border, whatever its form; those between are straight.
+//! │ ╭───────╴ │     Where they turn they follow the border, too, so that there is nothing left open beside it.
+//! │ ╰───────╮ │
+//! │ ╭───────╯ │
+//! │ ╰───────╴ │
+//! ╰───────────╯
+//! ```
+
+use crate::track::{Spot, behind, between, distance, spot, square};
+use shape::plane::{offset, simplified};
+use skein::Ring;
+
+/// The lines of a base layer.
+#[derive(Clone, Debug)]
+pub struct Zigzag {
+    /// The four ways through the same lines that begin at different corners.
+    ways: [Vec<Spot>; 4],
+    /// How far apart the lines lie, in microns.
+    pub pitch: f64,
+}
+
+impl Zigzag {
+    /// The lines inside a ring of beads of a width, about so far apart; `None` when the region is too small or one line
+    /// across it would fall apart.
+    pub fn inside(outermost: &Ring, width: f64, wanted: f64) -> Option<Self> {
+        let along = along(outermost, width)?;
+        let border = inner(outermost, (width + wanted) / 2.0)?;
+        let (low, high) = Border::new(&border, along).heights()?;
+        let room = high - low + wanted;
+        let count = (room / wanted).round();
+        if count < 3.0 {
+            return None;
+        }
+        let pitch = room / count;
+        let border = inner(outermost, (width + pitch) / 2.0)?;
+        let way = |flip: [f64; 2]| {
+            let border = Border { flip, ..Border::new(&border, along) };
+            border.zigzag(count as usize, pitch)
+        };
+        Some(Self {
+            ways: [way([1.0, 1.0])?, way([-1.0, 1.0])?, way([1.0, -1.0])?, way([-1.0, -1.0])?],
+            pitch,
+        })
+    }
+
+    /// The way that begins nearest to a place.
+    pub fn from(&self, place: Spot) -> &[Spot] {
+        let far = |way: &&Vec<Spot>| way.first().map_or(f64::INFINITY, |start| square(*start, place));
+        self.ways.iter().min_by(|one, other| far(one).total_cmp(&far(other))).map_or(&[], Vec::as_slice)
+    }
+}
+
+/// The direction of the longest straight side: lines along it end square.
+fn along(ring: &Ring, width: f64) -> Option<Spot> {
+    let coarse = simplified(ring, width / 4.0)?;
+    let sides = coarse.segments().map(|(from, to)| (spot(from), spot(to)));
+    let (from, to) = sides.max_by(|one, other| square(one.0, one.1).total_cmp(&square(other.0, other.1)))?;
+    let length = distance(from, to);
+    (length > 0.0).then(|| [(to[0] - from[0]) / length, (to[1] - from[1]) / length])
+}
+
+/// The one ring that lies so far inside another.
+fn inner(outer: &Ring, distance: f64) -> Option<Ring> {
+    <[Ring; 1]>::try_from(offset(std::slice::from_ref(outer), -distance)).ok().map(|[ring]| ring)
+}
+
+/// A ring in a frame in which the lines are level, turned over so that the way begins at its lower left.
+#[derive(Clone, Debug)]
+struct Border {
+    corners: Vec<Spot>,
+    along: Spot,
+    flip: [f64; 2],
+}
+
+impl Border {
+    fn new(ring: &Ring, along: Spot) -> Self {
+        let corners = ring.0.iter().map(|corner| {
+            let at = spot(*corner);
+            [at[0] * along[0] + at[1] * along[1], at[1] * along[0] - at[0] * along[1]]
+        });
+        Self { corners: corners.collect(), along, flip: [1.0, 1.0] }
+    }
+
+    fn back(&self, at: Spot) -> Spot {
+        let [x, y] = [at[0] * self.flip[0], at[1] * self.flip[1]];
+        [x * self.along[0] - y * self.along[1], x * self.along[1] + y * self.along[0]]
+    }
+
+    fn heights(&self) -> Option<(f64, f64)> {
+        let heights = || self.corners.iter().map(|corner| corner[1]);
+        Some((heights().min_by(f64::total_cmp)?, heights().max_by(f64::total_cmp)?))
+    }
+
+    /// The way along all lines. `None` where the border goes down on its way up: there a line would fall apart.
+    fn zigzag(&self, count: usize, pitch: f64) -> Option<Vec<Spot>> {
+        let mut corners: Vec<Spot> =
+            self.corners.iter().map(|at| [at[0] * self.flip[0], at[1] * self.flip[1]]).collect();
+        if self.flip[0] * self.flip[1] < 0.0 {
+            corners.reverse();
+        }
+        // Counter-clockwise from the lowest corner the right side goes up, then the left one down.
+        let lowest =
+            (0..corners.len()).min_by(|one, other| corners[*one][1].total_cmp(&corners[*other][1]))?;
+        corners.rotate_left(lowest);
+        let highest =
+            (0..corners.len()).max_by(|one, other| corners[*one][1].total_cmp(&corners[*other][1]))?;
+        let right = corners[..=highest].to_vec();
+        let mut left = corners[highest..].to_vec();
+        left.push(corners[0]);
+        left.reverse();
+        let rises = |side: &[Spot]| side.windows(2).all(|pair| pair[1][1] > pair[0][1] - ROUNDING);
+        if !rises(&right) || !rises(&left) {
+            return None;
+        }
+        let (low, step) = (right[0][1], (right.last()?[1] - right[0][1]) / (count - 1) as f64);
+        let height = |line: usize| low + step * line as f64;
+        // The lowest line, from one pitch short of the next on the left.
+        let mut way = shortened(reversed(part(&left, f64::NEG_INFINITY, height(1))), pitch);
+        way.extend(part(&right, f64::NEG_INFINITY, height(1)));
+        let mut sides = [&left, &right];
+        for line in 1..count - 1 {
+            // From the end of this line on the other side up to the next.
+            way.extend(part(sides[0], height(line), height(line + 1).min(height(count - 2))));
+            sides.swap(0, 1);
+        }
+        sides.swap(0, 1);
+        // The uppermost line follows the border over the top and ends one pitch short of the line below it.
+        way.extend(part(sides[0], height(count - 2), f64::INFINITY));
+        way.extend(reversed(shortened(part(sides[1], height(count - 2), f64::INFINITY), pitch)));
+        way.dedup();
+        Some(way.into_iter().map(|at| self.back(at)).collect())
+    }
+}
+
+/// Offsets are rounded to whole microns, so a level side may seem to go down by some.
+const ROUNDING: f64 = 5.0;
+
+fn reversed(mut way: Vec<Spot>) -> Vec<Spot> {
+    way.reverse();
+    way
+}
+
+/// The part of a rising side between two heights.
+fn part(side: &[Spot], low: f64, high: f64) -> Vec<Spot> {
+    let mut part = Vec::new();
+    for pair in side.windows(2) {
+        let (from, to) = (pair[0], pair[1]);
+        let crossing = |height: f64| between(from, to, (height - from[1]) / (to[1] - from[1]));
+        if from[1] < low && to[1] >= low {
+            part.push(crossing(low));
+        }
+        if from[1] >= low && from[1] <= high {
+            part.push(from);
+        }
+        if from[1] <= high && to[1] > high {
+            part.push(crossing(high));
+        }
+    }
+    part.extend(side.last().filter(|last| last[1] >= low && last[1] <= high));
+    part
+}
+
+/// The way without so much of its start.
+fn shortened(way: Vec<Spot>, by: f64) -> Vec<Spot> {
+    let length: f64 = way.windows(2).map(|side| distance(side[0], side[1])).sum();
+    behind(&way, by.min(length / 2.0))
+}
