@@ -24,15 +24,6 @@ enum Inside {
     Lines(Zigzag),
 }
 
-/// A part of a thread of the base, and how wide the room for its bead is, in microns.
-#[derive(Clone, Debug)]
-pub struct Part {
-    /// Its corners.
-    pub way: Vec<Spot>,
-    /// How wide the room for its bead is, in microns.
-    pub width: f64,
-}
-
 impl Floor {
     /// The floor within a ring of beads of a width, about `wanted` apart; `None` when it cannot be one thread. Where lines
     /// would fall apart there are rings.
@@ -57,50 +48,65 @@ impl Floor {
     pub fn seam(&self, wanted: Spot) -> Spot {
         match &self.inside {
             Inside::Rings(_) => wanted,
-            Inside::Lines(lines) => lines.from(wanted).first().copied().unwrap_or(wanted),
+            Inside::Lines(lines) => lines.from(wanted).first().map_or(wanted, |it| it.0),
         }
     }
 
-    /// The thread that ends next to a place: on the outermost ring when it runs outwards, else inside.
+    /// The thread that ends next to a place: on the outermost ring when it runs outwards, else inside. Each corner has the
+    /// width of the room for the bead that ends there.
     ///
     /// It goes along each ring until it is one bead short of where it came onto it, and there straight to the next, so
     /// that neither rings nor links lie nearer to each other than a bead. It is made from its end to its start.
-    pub fn thread(&self, end: Spot, outwards: bool) -> Vec<Part> {
-        let border = |from: Spot| around(&self.outermost, self.width, from);
-        let inside = |from: Spot, outwards: bool| match &self.inside {
-            Inside::Lines(lines) => lines.from(from).to_vec(),
+    pub fn thread(&self, end: Spot, outwards: bool) -> Vec<(Spot, f64)> {
+        let mut way: Vec<(Spot, f64)> = Vec::new();
+        if outwards {
+            self.border(end, &mut way);
+        }
+        match &self.inside {
+            Inside::Lines(lines) => way.extend(lines.from(last(&way, end))),
             Inside::Rings(rings) => {
-                let mut way: Vec<Spot> = Vec::new();
-                let order: Vec<&Track> =
-                    if outwards { rings.iter().collect() } else { rings.iter().rev().collect() };
-                for ring in order {
-                    way.extend(around(ring, self.pitch, way.last().copied().unwrap_or(from)));
+                let mut lay = |ring: &Track, short: f64| {
+                    let back = around(ring, short, last(&way, end));
+                    way.extend(back.into_iter().map(|at| (at, self.pitch)));
+                };
+                // The innermost is closed: it is an end of the thread.
+                let (innermost, others) = match rings.split_last() {
+                    Some((innermost, others)) => (Some(innermost), others),
+                    None => (None, &rings[..]),
+                };
+                if outwards {
+                    others.iter().for_each(|ring| lay(ring, self.pitch));
                 }
-                way
+                innermost.into_iter().for_each(|ring| lay(ring, 0.0));
+                if !outwards {
+                    others.iter().rev().for_each(|ring| lay(ring, self.pitch));
+                }
             }
-        };
-        let last = |way: &[Spot]| way.last().copied().unwrap_or(end);
-        let (border, inside) = if outwards {
-            let border = border(end);
-            let inside = inside(last(&border), true);
-            (border, inside)
-        } else {
-            let inside = inside(end, false);
-            (border(last(&inside)), inside)
-        };
-        let part = |mut way: Vec<Spot>, width: f64| {
-            way.reverse();
-            Part { way, width }
-        };
-        let (border, inside) = (part(border, self.width), part(inside, self.pitch));
-        let parts = if outwards { vec![inside, border] } else { vec![border, inside] };
-        parts.into_iter().filter(|part| part.way.len() > 1).collect()
+        }
+        if !outwards {
+            self.border(end, &mut way);
+        }
+        // Turned round, every side belongs to its other end.
+        let widths: Vec<f64> = way.iter().map(|it| it.1).collect();
+        way.reverse();
+        let behind = widths.iter().rev().take(1).chain(widths.iter().rev());
+        way.iter_mut().zip(behind).for_each(|(corner, width)| corner.1 = *width);
+        way
+    }
+
+    fn border(&self, end: Spot, way: &mut Vec<(Spot, f64)>) {
+        let back = around(&self.outermost, self.width, last(way, end));
+        way.extend(back.into_iter().map(|at| (at, self.width)));
     }
 }
 
-/// The way back around a ring from where it is nearest to a place, until it is one bead short of there.
-fn around(ring: &Track, bead: f64, from: Spot) -> Vec<Spot> {
-    let length = (ring.length() - bead).max(ring.length() / 2.0);
+fn last(way: &[(Spot, f64)], end: Spot) -> Spot {
+    way.last().map_or(end, |it| it.0)
+}
+
+/// The way back around a ring from where it is nearest to a place, until it is so much short of there.
+fn around(ring: &Track, short: f64, from: Spot) -> Vec<Spot> {
+    let length = (ring.length() - short).max(ring.length() / 2.0);
     ring.way(ring.nearest(from), -length)
 }
 

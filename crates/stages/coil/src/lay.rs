@@ -13,12 +13,14 @@ pub struct Step {
     pub height: f64,
     /// The room below it down to what is laid already, in microns.
     pub gap: f64,
+    /// How wide the room is for the bead that ends there, in microns.
+    pub width: f64,
 }
 
 impl Step {
     /// A level way.
-    pub fn level(way: &[Spot], height: f64, gap: f64) -> Vec<Self> {
-        way.iter().map(|at| Self { at: *at, height, gap }).collect()
+    pub fn level(way: &[Spot], height: f64, gap: f64, width: f64) -> Vec<Self> {
+        way.iter().map(|at| Self { at: *at, height, gap, width }).collect()
     }
 
     fn between(&self, to: &Self, share: f64) -> Self {
@@ -26,17 +28,9 @@ impl Step {
             at: between(self.at, to.at, share),
             height: self.height + (to.height - self.height) * share,
             gap: self.gap + (to.gap - self.gap) * share,
+            width: to.width,
         }
     }
-}
-
-/// What is laid along a way.
-#[derive(Clone, Copy, Debug)]
-pub struct Course {
-    /// How wide the room for the bead is, in microns.
-    pub width: f64,
-    /// A bead that fills the layer.
-    pub bead: Bead,
 }
 
 /// The gap changes by this share of a layer from one piece to the next at most: less than anybody sees.
@@ -71,8 +65,8 @@ impl Thread {
     }
 
     /// Lays clay along a way, as much as fills the gap below it.
-    pub fn lay(&mut self, way: &[Step], course: Course) {
-        let finest = course.bead.height.um() / PIECES;
+    pub fn lay(&mut self, way: &[Step], bead: &Bead) {
+        let finest = bead.height.um() / PIECES;
         for side in way.windows(2) {
             let (from, to) = (&side[0], &side[1]);
             // A little less, so that rounding does not add a piece.
@@ -80,7 +74,7 @@ impl Thread {
             let mut before = *from;
             for part in 1..=parts as usize {
                 let behind = from.between(to, part as f64 / parts);
-                self.piece(&before, &behind, course);
+                self.piece(&before, &behind, bead);
                 before = behind;
             }
         }
@@ -88,7 +82,7 @@ impl Thread {
 
     /// A straight piece of bead. A spiral rises with every line, for who reads the letters only takes one that does not for
     /// its end: a corner to which it would rise by less than a micron goes to the next, or is left out.
-    fn piece(&mut self, from: &Step, to: &Step, course: Course) {
+    fn piece(&mut self, from: &Step, to: &Step, bead: &Bead) {
         let height = unit::round_within(to.height, f64::from(i32::MAX)).unwrap_or(0) as i32;
         let mut place = place(to.at, height);
         if let Some(at) = self.at.filter(|at| from.height < to.height && at.z >= place.z) {
@@ -98,7 +92,7 @@ impl Thread {
             place.z = at.z + 1;
         }
         if self.at.is_none_or(|at| (at.x, at.y) != (place.x, place.y)) {
-            self.flow(share(&course.bead, f64::midpoint(from.gap, to.gap), course.width));
+            self.flow(share(bead, f64::midpoint(from.gap, to.gap), to.width));
             self.go(place);
         }
     }

@@ -11,6 +11,7 @@ mod texture;
 mod thin;
 mod track;
 mod turn;
+mod write;
 mod zigzag;
 
 use plan::{Plan, Role};

@@ -1,17 +1,15 @@
 //! What becomes of each layer, and where each turn begins.
 
-use crate::base::{Floor, Part};
+use crate::base::Floor;
 use crate::lane::Lane;
-use crate::lay::{Course, Step, Thread};
 use crate::source::{Source, Wall};
 use crate::texture::Waves;
-use crate::thin::thinned;
-use crate::track::{Spot, Track, behind, point};
-use crate::turn::{Corner, Turn};
+use crate::track::{Spot, Track};
+use crate::turn::Turn;
 use crate::{Base, Coil};
 use rayon::prelude::*;
-use shape::plane::{offset, outside};
-use skein::{Feature, Line, Notes, Side};
+use shape::plane::offset;
+use skein::Notes;
 
 /// What becomes of a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,14 +36,18 @@ pub enum Role {
 
 /// What becomes of all layers.
 pub struct Plan<'a> {
-    coil: &'a Coil,
-    sources: &'a [Source],
+    /// The settings.
+    pub coil: &'a Coil,
+    /// The layers as fill left them.
+    pub sources: &'a [Source],
     /// The role of each layer.
     pub roles: Vec<Role>,
-    lanes: Vec<Option<Lane>>,
+    /// The closed way of each wall.
+    pub lanes: Vec<Option<Lane>>,
     /// The way of each turn, from the lane below to its own.
-    turns: Vec<Option<Turn>>,
-    bases: Vec<Option<Vec<Part>>>,
+    pub turns: Vec<Option<Turn>>,
+    /// The way of each layer of the base, and how wide the room is for the bead that ends at each corner.
+    pub bases: Vec<Option<Vec<(Spot, f64)>>>,
 }
 
 impl<'a> Plan<'a> {
@@ -68,30 +70,14 @@ impl<'a> Plan<'a> {
         Self { coil, sources, roles, lanes, turns, bases }
     }
 
-    /// The lines of a layer that does not stay as it is.
-    pub fn write(&self, index: usize) -> (Vec<Line>, Notes) {
-        let mut notes = Notes::default();
-        let source = &self.sources[index];
-        let lines = match self.roles[index] {
-            Role::Layered => Vec::new(),
-            Role::Base { goes_on, .. } => source.write(Feature::Infill, self.base(index, goes_on)),
-            Role::Flat | Role::Turn { .. } => {
-                if source.filled {
-                    notes.layer(index, "what fill laid inside the wall is left out");
-                }
-                source.write(Feature::Edge(Side::Outer), self.wall(index, &mut notes))
-            }
-        };
-        (lines, notes)
-    }
-
-    fn below(&self, index: usize) -> Option<(&Source, Role)> {
+    /// The layer below one, and what becomes of it.
+    pub fn below(&self, index: usize) -> Option<(&Source, Role)> {
         let below = index.checked_sub(1)?;
         Some((&self.sources[below], self.roles[below]))
     }
 
     /// Whether the thread of a layer goes on in the next.
-    fn goes_on(&self, index: usize) -> bool {
+    pub fn goes_on(&self, index: usize) -> bool {
         match (self.roles[index], self.roles.get(index + 1)) {
             (Role::Base { .. }, Some(Role::Base { goes_on, .. })) => *goes_on,
             (Role::Base { .. } | Role::Flat, Some(Role::Turn { .. })) => true,
@@ -99,140 +85,7 @@ impl<'a> Plan<'a> {
             _ => false,
         }
     }
-
-    fn base(&self, index: usize, goes_on: bool) -> Vec<Line> {
-        let Some(parts) = &self.bases[index] else { return Vec::new() };
-        let source = &self.sources[index];
-        let (top, gap) = (f64::from(source.top), source.bead.height.um());
-        let mut thread = Thread::default();
-        let mut here: Option<Step> = None;
-        for part in parts {
-            let Some(first) = part.way.first() else { continue };
-            let mut steps = Step::level(&part.way, top, gap);
-            match (here, self.below(index).filter(|_| goes_on)) {
-                (Some(here), _) => steps.insert(0, here),
-                // Over one bead it climbs from the layer below, with all of its clay: none is missing and no nozzle
-                // stands.
-                (None, Some((below, _))) => {
-                    steps = Step::level(&behind(&part.way, part.width), top, gap);
-                    steps.insert(0, Step { at: *first, height: f64::from(below.top), gap });
-                }
-                (None, None) => {
-                    thread.travel(*first, source.top);
-                    thread.start();
-                }
-            }
-            thread.lay(&steps, Course { width: part.width * self.coil.base_flow.f64(), bead: source.bead });
-            here = steps.last().copied();
-        }
-        if !self.goes_on(index) {
-            thread.stop();
-        }
-        thread.finish()
-    }
-
-    fn wall(&self, index: usize, notes: &mut Notes) -> Vec<Line> {
-        let source = &self.sources[index];
-        let (Some(lane), Some(turn), Ok(wall)) = (&self.lanes[index], &self.turns[index], &source.wall)
-        else {
-            return Vec::new();
-        };
-        let height = source.bead.height.um();
-        let tolerance = source.bead.width.um() / FINENESS;
-        let course = Course { width: wall.pitch, bead: source.bead };
-        let mut thread = Thread::default();
-        let below = self.below(index);
-        let start = below
-            .filter(|_| matches!(self.roles[index], Role::Turn { .. }))
-            .map_or(source.top, |it| it.0.top);
-        // What comes from a base or a turn is there already; over layers the thread begins here.
-        if !index.checked_sub(1).is_some_and(|below| self.goes_on(below)) {
-            thread.travel(lane.start(), start);
-            thread.start();
-        }
-        let mut last = false;
-        let mut steps = match self.roles[index] {
-            Role::Turn { first: true, last: ends } => {
-                last = ends;
-                self.grounded(index, lane, notes);
-                climbing(turn, source, start, |_| 0.0)
-            }
-            Role::Turn { first: false, last: ends } => {
-                last = ends;
-                if turn.reach.0 > source.bead.width.um() / 2.0 {
-                    notes.spot(index, point(turn.reach.1), OVERHANG);
-                    // The next turn begins on this outline, while what is below it there began on the one below.
-                    if !last {
-                        notes.spot(index + 1, point(turn.reach.1), OVERHANG);
-                    }
-                }
-                // What is below has not risen to where this turn begins, but where it ends.
-                let rise = below.map_or(height, |(below, _)| below.bead.height.um());
-                let mut share_below = self.turns[index - 1].as_ref().map(Turn::shares);
-                climbing(turn, source, start, |low| {
-                    rise * (1.0 - share_below.as_mut().map_or(1.0, |share| share(low)))
-                })
-            }
-            _ => Step::level(&lane.whole(), f64::from(source.top), height),
-        };
-        steps = thinned(&steps, tolerance);
-        thread.lay(&steps, course);
-        if last {
-            let rim = rim(lane, turn, source, height);
-            let rim = thinned(&rim, tolerance);
-            thread.lay(&rim, course);
-            thread.stop();
-            for _ in 0..self.coil.rim_turns {
-                rim.iter().skip(1).for_each(|step| thread.travel(step.at, source.top));
-            }
-        } else if !self.goes_on(index) {
-            thread.stop();
-        }
-        thread.finish()
-    }
-
-    /// Says when the first turn of a wall finds no clay below it.
-    fn grounded(&self, index: usize, lane: &Lane, notes: &mut Notes) {
-        let Some((below, role)) = self.below(index) else { return };
-        let mut clay = below.outlines.clone();
-        if let (Role::Turn { .. } | Role::Flat, Ok(Wall { beads, pitch, full: true })) = (role, &below.wall) {
-            let inside = beads.last().map(|bead| offset(std::slice::from_ref(bead), -pitch / 2.0));
-            clay.extend(inside.unwrap_or_default().into_iter().map(skein::Ring::reversed));
-        }
-        let way = skein::Ring(lane.whole().into_iter().map(point).collect());
-        if !outside(&[way], &clay).is_empty() {
-            notes.layer(index, OVERHANG);
-        }
-    }
 }
-
-/// The steps of a turn that climbs by the height of its layer; `hollow` says how far the place that it has on the lane below
-/// lies under the height from which it climbs.
-fn climbing(turn: &Turn, source: &Source, start: i32, mut hollow: impl FnMut(f64) -> f64) -> Vec<Step> {
-    let rise = f64::from(source.top) - f64::from(start);
-    let step = |corner: &Corner| {
-        let up = rise * corner.share;
-        Step { at: corner.at, height: f64::from(start) + up, gap: up + hollow(corner.low) }
-    };
-    turn.corners.iter().map(step).collect()
-}
-
-/// The steps of the level turn behind the last: it fills what that one has left open below its end.
-fn rim(lane: &Lane, turn: &Turn, source: &Source, height: f64) -> Vec<Step> {
-    let mut share = turn.shares();
-    let top = f64::from(source.top);
-    let step = |(place, at): (usize, &Spot)| Step {
-        at: *at,
-        height: top,
-        gap: height * (1.0 - share(place as f64)),
-    };
-    lane.whole().iter().enumerate().map(step).collect()
-}
-
-const OVERHANG: &str = "the turn reaches more than half a bead over the one below: it may sag";
-
-/// A turn keeps no corner nearer to a straight line than half a hundredth of a bead.
-const FINENESS: f64 = 200.0;
 
 /// Which layers are solid: those that fill has made so, and the full ones below a wall that is drawn, for who draws the
 /// wall draws the floor, too.
@@ -397,9 +250,9 @@ fn bases(
     roles: &[Role],
     lanes: &[Option<Lane>],
     made: Vec<Option<Floor>>,
-) -> Vec<Option<Vec<Part>>> {
+) -> Vec<Option<Vec<(Spot, f64)>>> {
     let mut above: Option<Spot> = None;
-    let mut bases: Vec<Option<Vec<Part>>> = Vec::with_capacity(sources.len());
+    let mut bases: Vec<Option<Vec<(Spot, f64)>>> = Vec::with_capacity(sources.len());
     let all = sources.iter().zip(roles).zip(lanes).zip(made);
     for (((source, role), lane), floor) in all.rev() {
         let base = match (role, floor) {
@@ -409,7 +262,7 @@ fn bases(
             _ => None,
         };
         above = match (&base, lane) {
-            (Some(parts), _) => parts.first().and_then(|part| part.way.first()).copied(),
+            (Some(way), _) => way.first().map(|it| it.0),
             (None, Some(lane)) => Some(lane.start()),
             _ => None,
         };

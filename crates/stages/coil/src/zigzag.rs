@@ -9,7 +9,7 @@
 //! ╰───────────╯
 //! ```
 
-use crate::track::{Spot, behind, between, distance, spot, square};
+use crate::track::{Spot, behind, between, distance, divided, spot, square};
 use shape::plane::{offset, simplified};
 use skein::Ring;
 
@@ -17,7 +17,7 @@ use skein::Ring;
 #[derive(Clone, Debug)]
 pub struct Zigzag {
     /// The four ways through the same lines that begin at different corners.
-    ways: [Vec<Spot>; 4],
+    ways: [Vec<(Spot, f64)>; 4],
     /// How far apart the lines lie, in microns.
     pub pitch: f64,
 }
@@ -46,9 +46,9 @@ impl Zigzag {
         })
     }
 
-    /// The way that begins nearest to a place.
-    pub fn from(&self, place: Spot) -> &[Spot] {
-        let far = |way: &&Vec<Spot>| way.first().map_or(f64::INFINITY, |start| square(*start, place));
+    /// The way that begins nearest to a place. Each corner has the width of the room for the bead that ends there.
+    pub fn from(&self, place: Spot) -> &[(Spot, f64)] {
+        let far = |way: &&Vec<(Spot, f64)>| way.first().map_or(f64::INFINITY, |start| square(start.0, place));
         self.ways.iter().min_by(|one, other| far(one).total_cmp(&far(other))).map_or(&[], Vec::as_slice)
     }
 }
@@ -95,7 +95,7 @@ impl Border {
     }
 
     /// The way along all lines. `None` where the border goes down on its way up: there a line would fall apart.
-    fn zigzag(&self, count: usize, pitch: f64) -> Option<Vec<Spot>> {
+    fn zigzag(&self, count: usize, pitch: f64) -> Option<Vec<(Spot, f64)>> {
         let mut corners: Vec<Spot> =
             self.corners.iter().map(|at| [at[0] * self.flip[0], at[1] * self.flip[1]]).collect();
         if self.flip[0] * self.flip[1] < 0.0 {
@@ -117,22 +117,37 @@ impl Border {
         }
         let (low, step) = (right[0][1], (right.last()?[1] - right[0][1]) / (count - 1) as f64);
         let height = |line: usize| low + step * line as f64;
-        // The lowest line, from one pitch short of the next on the left.
-        let mut way = shortened(reversed(part(&left, f64::NEG_INFINITY, height(1))), pitch);
-        way.extend(part(&right, f64::NEG_INFINITY, height(1)));
+        // The lowest line follows the border, from one pitch short of the next on the left.
+        let mut lowest = shortened(reversed(part(&left, f64::NEG_INFINITY, height(1))), pitch);
+        lowest.extend(part(&right, f64::NEG_INFINITY, height(1)));
+        let mut way = beside(&lowest, height(1), pitch);
         let mut sides = [&left, &right];
         for line in 1..count - 1 {
-            // From the end of this line on the other side up to the next.
-            way.extend(part(sides[0], height(line), height(line + 1).min(height(count - 2))));
+            // To the end of this line on the other side, and along the border up to the next.
+            let turn = part(sides[0], height(line), height(line + 1).min(height(count - 2)));
+            way.extend(turn.into_iter().map(|at| (at, pitch)));
             sides.swap(0, 1);
         }
-        sides.swap(0, 1);
-        // The uppermost line follows the border over the top and ends one pitch short of the line below it.
-        way.extend(part(sides[0], height(count - 2), f64::INFINITY));
-        way.extend(reversed(shortened(part(sides[1], height(count - 2), f64::INFINITY), pitch)));
-        way.dedup();
-        Some(way.into_iter().map(|at| self.back(at)).collect())
+        // The uppermost follows the border over the top and ends one pitch short of the line below it.
+        let mut uppermost = part(sides[1], height(count - 2), f64::INFINITY);
+        uppermost.extend(reversed(shortened(part(sides[0], height(count - 2), f64::INFINITY), pitch)));
+        way.extend(beside(&uppermost, height(count - 2), pitch));
+        way.dedup_by_key(|corner| corner.0);
+        Some(way.into_iter().map(|(at, width)| (self.back(at), width)).collect())
     }
+}
+
+/// A way along the border with the room that it has beside a level line: less than a pitch where the two run together.
+fn beside(way: &[Spot], line: f64, pitch: f64) -> Vec<(Spot, f64)> {
+    let fine = divided(way, pitch);
+    let mut beside: Vec<(Spot, f64)> = fine.first().map(|at| (*at, pitch)).into_iter().collect();
+    beside.extend(fine.windows(2).map(|side| {
+        let (from, to) = (side[0], side[1]);
+        let away = (f64::midpoint(from[1], to[1]) - line).abs();
+        let level = (to[0] - from[0]).abs() / distance(from, to).max(1.0);
+        (to, if away < pitch * level { away / level } else { pitch })
+    }));
+    beside
 }
 
 /// Offsets are rounded to whole microns, so a level side may seem to go down by some.
