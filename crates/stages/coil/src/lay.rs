@@ -1,7 +1,7 @@
 //! From a way in the plane to the lines of a thread.
 
 use crate::source::share;
-use crate::track::{Spot, between, point};
+use crate::track::{Spot, between, distance, point};
 use skein::{Bead, Line, Move, Point3, Ratio};
 
 /// A corner of a way that is laid.
@@ -38,6 +38,9 @@ const PIECES: f64 = 64.0;
 
 /// Flows that differ by less than this are one: it is a fifth of a percent, and every change is a line.
 const SAME_FLOW: i32 = 2_000;
+
+/// A piece shorter than so many microns is left to the next: its direction is that of the rounding.
+const SHORTEST: f64 = 5.0;
 
 /// The lines of a thread, or of a part of one.
 #[derive(Debug, Default)]
@@ -91,7 +94,8 @@ impl Thread {
             }
             place.z = at.z + 1;
         }
-        if self.at.is_none_or(|at| (at.x, at.y) != (place.x, place.y)) {
+        let far = |at: Point3| distance([f64::from(at.x), f64::from(at.y)], to.at) >= SHORTEST;
+        if self.at.is_none_or(far) {
             self.flow(share(bead, f64::midpoint(from.gap, to.gap), to.width));
             self.go(place);
         }

@@ -163,7 +163,7 @@ fn around_clay(laid: &[Ring], beads: usize, spacing: f64) -> Result<Wall, &'stat
     let mut walls = vec![outermost.clone()];
     for (index, ring) in inner.iter().take(wanted - 1).enumerate() {
         if !ring.0.first().is_some_and(|point| walls[index].contains(*point)) {
-            return Err("its inner walls fall apart");
+            return Err("its walls fall apart");
         }
         walls.push(ring.clone());
     }
@@ -205,7 +205,7 @@ const UNEVEN: f64 = 0.25;
 fn inside(outer: &Ring, distance: f64) -> Result<Ring, &'static str> {
     match <[Ring; 1]>::try_from(offset(std::slice::from_ref(outer), -distance)) {
         Ok([ring]) => Ok(ring),
-        Err(_) => Err("its inner walls fall apart"),
+        Err(_) => Err("its walls fall apart"),
     }
 }
 

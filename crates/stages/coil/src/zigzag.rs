@@ -145,10 +145,13 @@ fn beside(way: &[Spot], line: f64, pitch: f64) -> Vec<(Spot, f64)> {
         let (from, to) = (side[0], side[1]);
         let away = (f64::midpoint(from[1], to[1]) - line).abs();
         let level = (to[0] - from[0]).abs() / distance(from, to).max(1.0);
-        (to, if away < pitch * level { away / level } else { pitch })
+        (to, if away < pitch * level { (away / level).max(LEAST_ROOM * pitch) } else { pitch })
     }));
     beside
 }
+
+/// A bead is never thinner than this share of its width: it would tear.
+const LEAST_ROOM: f64 = 0.25;
 
 /// Offsets are rounded to whole microns, so a level side may seem to go down by some.
 const ROUNDING: f64 = 5.0;
