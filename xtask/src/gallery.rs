@@ -22,7 +22,7 @@ pub fn run() -> Result<(), String> {
     let mut page = String::from(
         "# Gallery\n\nForms that break spirals, wound by [coil](../crates/stages/coil/README.md) with the profile `vase`: \
          from the side, and the way of one layer of the base, one in the middle and the last, with the rim turn. \
-         `cargo xtask gallery` draws them.\n",
+         `cargo xtask gallery` draws them; `cargo xtask turns FILE.gcode` measures the clay of every turn.\n",
     );
     for piece in pieces() {
         let (skein, notes) = wound(&piece).map_err(|error| format!("{}: {error}", piece.name))?;

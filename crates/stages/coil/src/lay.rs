@@ -70,6 +70,10 @@ impl Thread {
     /// Lays clay along a way, as much as fills the gap below it.
     pub fn lay(&mut self, way: &[Step], bead: &Bead) {
         let finest = bead.height.um() / PIECES;
+        // What comes from the layer below begins where that has ended.
+        if let (None, Some(first)) = (self.at, way.first()) {
+            self.at = Some(place(first.at, whole(first.height)));
+        }
         for side in way.windows(2) {
             let (from, to) = (&side[0], &side[1]);
             // A little less, so that rounding does not add a piece.
@@ -86,8 +90,7 @@ impl Thread {
     /// A straight piece of bead. A spiral rises with every line, for who reads the letters only takes one that does not for
     /// its end: a corner to which it would rise by less than a micron goes to the next, or is left out.
     fn piece(&mut self, from: &Step, to: &Step, bead: &Bead) {
-        let height = unit::round_within(to.height, f64::from(i32::MAX)).unwrap_or(0) as i32;
-        let mut place = place(to.at, height);
+        let mut place = place(to.at, whole(to.height));
         if let Some(at) = self.at.filter(|at| from.height < to.height && at.z >= place.z) {
             if f64::from(at.z) >= to.height {
                 return;
@@ -121,6 +124,10 @@ impl Thread {
         self.lines.push(Line::Move(Move::to(to)));
         self.at = Some(to);
     }
+}
+
+fn whole(height: f64) -> i32 {
+    unit::round_within(height, f64::from(i32::MAX)).unwrap_or(0) as i32
 }
 
 fn place(at: Spot, z: i32) -> Point3 {

@@ -117,20 +117,23 @@ impl Border {
         }
         let (low, step) = (right[0][1], (right.last()?[1] - right[0][1]) / (count - 1) as f64);
         let height = |line: usize| low + step * line as f64;
+        let lines: Vec<f64> = (1..count - 1).map(height).collect();
+        let (left, right) = (bands(&left, &lines), bands(&right, &lines));
         // The lowest line follows the border, from one pitch short of the next on the left.
-        let mut lowest = shortened(reversed(part(&left, f64::NEG_INFINITY, height(1))), pitch);
-        lowest.extend(part(&right, f64::NEG_INFINITY, height(1)));
+        let mut lowest = behind(&reversed(left[0].clone()), pitch);
+        lowest.extend(&right[0]);
         let mut way = beside(&lowest, height(1), pitch);
-        let mut sides = [&left, &right];
+        let (mut here, mut there) = (&right, &left);
         for line in 1..count - 1 {
+            (here, there) = (there, here);
             // To the end of this line on the other side, and along the border up to the next.
-            let turn = part(sides[0], height(line), height(line + 1).min(height(count - 2)));
-            way.extend(turn.into_iter().map(|at| (at, pitch)));
-            sides.swap(0, 1);
+            let turn =
+                if line + 2 < count { &here[line][..] } else { here[line].get(..1).unwrap_or_default() };
+            way.extend(turn.iter().map(|at| (*at, pitch)));
         }
         // The uppermost follows the border over the top and ends one pitch short of the line below it.
-        let mut uppermost = part(sides[1], height(count - 2), f64::INFINITY);
-        uppermost.extend(reversed(shortened(part(sides[0], height(count - 2), f64::INFINITY), pitch)));
+        let mut uppermost = here[count - 2].clone();
+        uppermost.extend(reversed(behind(&there[count - 2], pitch)));
         way.extend(beside(&uppermost, height(count - 2), pitch));
         way.dedup_by_key(|corner| corner.0);
         Some(way.into_iter().map(|(at, width)| (self.back(at), width)).collect())
@@ -161,28 +164,22 @@ fn reversed(mut way: Vec<Spot>) -> Vec<Spot> {
     way
 }
 
-/// The part of a rising side between two heights.
-fn part(side: &[Spot], low: f64, high: f64) -> Vec<Spot> {
-    let mut part = Vec::new();
+/// A rising side cut at the heights of the lines: below the first, between each two, and above the last.
+fn bands(side: &[Spot], lines: &[f64]) -> Vec<Vec<Spot>> {
+    let mut bands: Vec<Vec<Spot>> = Vec::with_capacity(lines.len() + 1);
+    let mut band: Vec<Spot> = side.first().copied().into_iter().collect();
     for pair in side.windows(2) {
         let (from, to) = (pair[0], pair[1]);
-        let crossing = |height: f64| between(from, to, (height - from[1]) / (to[1] - from[1]));
-        if from[1] < low && to[1] >= low {
-            part.push(crossing(low));
+        while let Some(line) = lines.get(bands.len()).filter(|line| to[1] >= **line) {
+            let rise = (to[1] - from[1]).max(f64::MIN_POSITIVE);
+            let cut = between(from, to, ((line - from[1]) / rise).clamp(0.0, 1.0));
+            band.push(cut);
+            bands.push(std::mem::replace(&mut band, vec![cut]));
         }
-        if from[1] >= low && from[1] <= high {
-            part.push(from);
-        }
-        if from[1] <= high && to[1] > high {
-            part.push(crossing(high));
-        }
+        band.push(to);
     }
-    part.extend(side.last().filter(|last| last[1] >= low && last[1] <= high));
-    part
-}
-
-/// The way without so much of its start.
-fn shortened(way: Vec<Spot>, by: f64) -> Vec<Spot> {
-    let length: f64 = way.windows(2).map(|side| distance(side[0], side[1])).sum();
-    behind(&way, by.min(length / 2.0))
+    bands.push(band);
+    // Every line crosses a side that rises from below the first to above the last.
+    bands.resize_with(lines.len() + 1, Vec::new);
+    bands
 }

@@ -25,6 +25,7 @@ fn a_base_holds_as_much_clay_as_it_has_room_for_and_goes_on_as_the_wall() {
         let (skein, _) = wound(&pot, &coil);
         super::measure::is_one_rising_thread(&skein);
         let turns = turns(&skein);
+        super::crosses_nothing(&turns, &pot, 0);
         for (layer, pieces) in turns[..pot.base].iter().enumerate() {
             let area = pot.outline(layer).area() * 1e6;
             let clay: f64 = pieces.iter().map(|piece| piece.length() * piece.flow * pot.width).sum();
