@@ -42,7 +42,18 @@ impl Plan<'_> {
         let mut thread = Thread::default();
         let Some(first) = steps.first() else { return Vec::new() };
         match self.below(index).filter(|_| goes_on) {
-            Some((below, _)) => steps = ramp(&steps, source.bead.spacing().um(), f64::from(below.top)),
+            Some((below, _)) => {
+                let (bead, bottom) = (source.bead.spacing().um(), f64::from(below.top));
+                let end =
+                    self.bases[index - 1].as_ref().and_then(|way| way.last()).map_or(first.at, |it| it.0);
+                if distance(end, first.at) > bead / 2.0 {
+                    // Where the layers do not quite lie above each other it climbs on its way there.
+                    let from = Step { at: end, height: bottom, ..*first };
+                    steps.insert(0, from);
+                } else {
+                    steps = ramp(&steps, bead, bottom);
+                }
+            }
             None => {
                 thread.travel(first.at, source.top);
                 thread.start();
