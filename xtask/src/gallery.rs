@@ -22,7 +22,7 @@ pub fn run() -> Result<(), String> {
     let mut page = String::from(
         "# Gallery\n\nForms that break spirals, wound by [coil](../crates/stages/coil/README.md) with the profile `vase`: \
          from the side, and the way of one layer of the base, one in the middle and the last, with the rim turn. \
-         `cargo xtask gallery` draws them.\n",
+         `cargo xtask gallery` draws them; `cargo xtask turns FILE.gcode` measures the clay of every turn.\n",
     );
     for piece in pieces() {
         let (skein, notes) = wound(&piece).map_err(|error| format!("{}: {error}", piece.name))?;
@@ -93,6 +93,12 @@ fn pieces() -> Vec<Piece> {
             walls: 1,
             mesh: turned(&|[radius, z], angle| polar(radius * 1.3, angle + TAU / 4.0 * z / 60.0, z), 4),
         },
+        Piece {
+            name: "square",
+            about: "A square with sharp corners, on a base of lines there and back.",
+            walls: 1,
+            mesh: revolve(&[[0.0, 0.0], [40.0, 0.0], [40.0, 60.0], [0.0, 60.0]], 4, plain),
+        },
         Piece { name: "waist", about: "Narrow in the middle.", walls: 3, mesh: revolve(&waist, 96, plain) },
         Piece {
             name: "leaning",
@@ -147,13 +153,43 @@ fn jug() -> Mesh {
     (vertices, triangles)
 }
 
+impl Piece {
+    fn profile(&self) -> Result<Profile, String> {
+        let vase = Profile::built_in("vase").ok_or("there is no profile `vase`")?;
+        let mut profile = vase.map_err(|error| error.to_string())?;
+        let base = if self.name == "square" { "zig-zag" } else { "in-and-out" };
+        for (key, value) in [("fill.walls", self.walls.to_string().as_str()), ("coil.base", base)] {
+            profile.set(key, value).map_err(|error| error.to_string())?;
+        }
+        Ok(profile)
+    }
+}
+
+/// The finished G-code of the forms that are one spiral, with layers of one height.
+#[cfg(test)]
+pub fn spirals() -> Vec<(&'static str, String)> {
+    let spirals = pieces().into_iter().filter(|piece| !["jug", "foot"].contains(&piece.name));
+    let sliced = spirals.map(|piece| {
+        let mut part = Vec::new();
+        encode(&mut part, piece.name, &piece.mesh).expect("memory");
+        let mut profile = piece.profile().expect("a profile");
+        profile.set("carve.first_layer_height", "1.5").expect("a setting");
+        let mut gcode = Vec::new();
+        let mut sink = |bytes: &[u8]| {
+            gcode.extend_from_slice(bytes);
+            Ok(())
+        };
+        slice(part, &profile, None, &mut |_| Ok(()), &mut sink).expect("a pot");
+        (piece.name, String::from_utf8(gcode).expect("text"))
+    });
+    sliced.collect()
+}
+
 /// The skein behind coil, and what coil had to say.
 fn wound(piece: &Piece) -> Result<(Skein, Vec<String>), String> {
     let mut part = Vec::new();
     encode(&mut part, piece.name, &piece.mesh).map_err(|error| error.to_string())?;
-    let mut profile =
-        Profile::built_in("vase").ok_or("there is no profile `vase`")?.map_err(|error| error.to_string())?;
-    profile.set("fill.walls", &piece.walls.to_string()).map_err(|error| error.to_string())?;
+    let profile = piece.profile()?;
     let mut skein = None;
     let mut watch = |event: Event<'_>| {
         if let Event::Done { name: "coil", document: Document::Skein(wound), .. } = event {

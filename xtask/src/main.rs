@@ -1,5 +1,5 @@
 //! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage, figures
-//! against other slicers.
+//! against other slicers, and the clay of every turn of a spiral.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use std::path::{Path, PathBuf};
@@ -11,6 +11,7 @@ mod gallery;
 mod new_stage;
 mod pictures;
 mod solid;
+mod turns;
 
 /// The folder of the workspace.
 fn root() -> PathBuf {
@@ -23,6 +24,8 @@ usage: cargo xtask examples [--dir DIR]                    the parts in examples
        cargo xtask examples --vase TRIANGLES --out FILE    one vase of any fineness
        cargo xtask pictures                                docs/vase.svg and the pictures of the stage pages
        cargo xtask gallery                                 docs/gallery.md and its pictures
+       cargo xtask turns FILE.gcode [--layer H] [--width W] [--area A]
+                                                           the clay of every turn of a spiral against its gap
        cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it
        cargo xtask compare [--clayforge BINARY] [--runs N] [--out FILE] [PART.stl]...
                                                            time and memory against the slicers that are installed";
@@ -32,6 +35,7 @@ fn main() -> ExitCode {
     let result = match args.split_first() {
         Some((name, args)) if name == "examples" => examples::run(args),
         Some((name, args)) if name == "pictures" => pictures::run(args),
+        Some((name, args)) if name == "turns" => turns::run(args),
         Some((name, _)) if name == "gallery" => gallery::run(),
         Some((name, args)) if name == "new-stage" => new_stage::run(args),
         Some((name, args)) if name == "compare" => compare::run(args),

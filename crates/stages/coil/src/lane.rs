@@ -57,6 +57,11 @@ impl Lane {
         self.arcs.first().and_then(|arc| arc.first()).copied().unwrap_or_default()
     }
 
+    /// How many corners it has.
+    pub fn corners(&self) -> usize {
+        self.arcs.iter().map(Vec::len).sum()
+    }
+
     /// The whole way, back to where it begins.
     pub fn whole(&self) -> Vec<Spot> {
         let mut way = self.arcs.concat();

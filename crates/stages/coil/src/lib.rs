@@ -8,8 +8,11 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod texture;
+mod thin;
 mod track;
 mod turn;
+mod write;
+mod zigzag;
 
 use plan::{Plan, Role};
 use rayon::prelude::*;
@@ -54,6 +57,9 @@ pub struct Coil {
 pub enum Base {
     /// Round and round, from the rim to the middle and back out: one thread that goes on as the wall.
     InAndOut,
+    /// There and back in straight lines within one ring: one thread that goes on as the wall, which begins at the corner
+    /// where the lines end. Where lines would fall apart, and on what is smaller than three, round and round.
+    ZigZag,
     /// As fill laid them, with a stop before the wall.
     AsFilled,
 }

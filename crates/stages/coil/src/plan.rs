@@ -1,16 +1,15 @@
 //! What becomes of each layer, and where each turn begins.
 
-use crate::base::Rings;
+use crate::base::Floor;
 use crate::lane::Lane;
-use crate::lay::{Course, Thread};
 use crate::source::{Source, Wall};
 use crate::texture::Waves;
-use crate::track::{Spot, Track, between, distance, point};
+use crate::track::{Spot, Track};
 use crate::turn::Turn;
 use crate::{Base, Coil};
 use rayon::prelude::*;
 use shape::plane::offset;
-use skein::{Feature, Line, Notes, Side};
+use skein::Notes;
 
 /// What becomes of a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,22 +36,28 @@ pub enum Role {
 
 /// What becomes of all layers.
 pub struct Plan<'a> {
-    coil: &'a Coil,
-    sources: &'a [Source],
+    /// The settings.
+    pub coil: &'a Coil,
+    /// The layers as fill left them.
+    pub sources: &'a [Source],
     /// The role of each layer.
     pub roles: Vec<Role>,
-    lanes: Vec<Option<Lane>>,
-    bases: Vec<Option<(Rings, Vec<Spot>)>>,
+    /// The closed way of each wall.
+    pub lanes: Vec<Option<Lane>>,
+    /// The way of each turn, from the lane below to its own.
+    pub turns: Vec<Option<Turn>>,
+    /// The way of each layer of the base, and how wide the room is for the bead that ends at each corner.
+    pub bases: Vec<Option<Vec<(Spot, f64)>>>,
 }
 
 impl<'a> Plan<'a> {
     /// Decides what each layer becomes, and says why one stays as it is.
     pub fn new(coil: &'a Coil, sources: &'a [Source], notes: &mut Notes) -> Self {
         let floors = floors(sources);
-        let rings: Vec<Option<Rings>> =
-            sources.par_iter().zip(&floors).map(|(source, floor)| rings(coil, source, *floor)).collect();
-        let mut roles = roles(coil, sources, &rings, &floors, notes);
-        let anchors = anchors(sources, &roles);
+        let made: Vec<Option<Floor>> =
+            sources.par_iter().zip(&floors).map(|(source, floor)| made(coil, source, *floor)).collect();
+        let mut roles = roles(coil, sources, &made, &floors, notes);
+        let anchors = anchors(sources, &roles, &made);
         let lanes: Vec<Option<Lane>> = sources
             .par_iter()
             .zip(&anchors)
@@ -60,34 +65,19 @@ impl<'a> Plan<'a> {
             .map(|(index, (source, anchor))| lane(coil, source, index, anchor.as_ref()?))
             .collect();
         finish(&mut roles);
-        let bases = bases(sources, &roles, &lanes, rings);
-        Self { coil, sources, roles, lanes, bases }
+        let turns = (0..sources.len()).into_par_iter().map(|index| turn(&roles, &lanes, index)).collect();
+        let bases = bases(sources, &roles, &lanes, made);
+        Self { coil, sources, roles, lanes, turns, bases }
     }
 
-    /// The lines of a layer that does not stay as it is.
-    pub fn write(&self, index: usize) -> (Vec<Line>, Notes) {
-        let mut notes = Notes::default();
-        let source = &self.sources[index];
-        let lines = match self.roles[index] {
-            Role::Layered => Vec::new(),
-            Role::Base { goes_on, .. } => source.write(Feature::Infill, self.base(index, goes_on)),
-            Role::Flat | Role::Turn { .. } => {
-                if source.filled {
-                    notes.layer(index, "what fill laid inside the wall is left out");
-                }
-                source.write(Feature::Edge(Side::Outer), self.wall(index, &mut notes))
-            }
-        };
-        (lines, notes)
-    }
-
-    fn below(&self, index: usize) -> Option<(&Source, Role)> {
+    /// The layer below one, and what becomes of it.
+    pub fn below(&self, index: usize) -> Option<(&Source, Role)> {
         let below = index.checked_sub(1)?;
         Some((&self.sources[below], self.roles[below]))
     }
 
     /// Whether the thread of a layer goes on in the next.
-    fn goes_on(&self, index: usize) -> bool {
+    pub fn goes_on(&self, index: usize) -> bool {
         match (self.roles[index], self.roles.get(index + 1)) {
             (Role::Base { .. }, Some(Role::Base { goes_on, .. })) => *goes_on,
             (Role::Base { .. } | Role::Flat, Some(Role::Turn { .. })) => true,
@@ -95,118 +85,7 @@ impl<'a> Plan<'a> {
             _ => false,
         }
     }
-
-    fn base(&self, index: usize, goes_on: bool) -> Vec<Line> {
-        let Some((rings, way)) = &self.bases[index] else { return Vec::new() };
-        let source = &self.sources[index];
-        let height = source.bead.height.um();
-        let width = rings.pitch / self.coil.base_spacing.f64() * self.coil.base_flow.f64();
-        let course =
-            Course { heights: (source.top, source.top), gaps: (height, height), width, bead: source.bead };
-        let mut thread = Thread::default();
-        let Some(first) = way.first() else { return Vec::new() };
-        match self.below(index).filter(|_| goes_on) {
-            // Over one bead it climbs from the layer below, with all of its clay: none is missing and no nozzle stands.
-            Some((below, _)) => {
-                let rest = behind(way, rings.pitch);
-                let ramp = [*first, rest.first().copied().unwrap_or(*first)];
-                thread.lay(&ramp, Course { heights: (below.top, source.top), ..course });
-                thread.lay(&rest, course);
-            }
-            None => {
-                thread.travel(*first, source.top);
-                thread.start();
-                thread.lay(way, course);
-            }
-        }
-        if !self.goes_on(index) {
-            thread.stop();
-        }
-        thread.finish()
-    }
-
-    fn wall(&self, index: usize, notes: &mut Notes) -> Vec<Line> {
-        let source = &self.sources[index];
-        let (Some(lane), Ok(wall)) = (&self.lanes[index], &source.wall) else { return Vec::new() };
-        let height = source.bead.height.um();
-        let tolerance = source.bead.width.um() / FINENESS;
-        let flat = Turn::flat(lane).thinned(tolerance).way;
-        let level = Course {
-            heights: (source.top, source.top),
-            gaps: (height, height),
-            width: wall.pitch,
-            bead: source.bead,
-        };
-        let mut thread = Thread::default();
-        let (first, last) = match self.roles[index] {
-            Role::Turn { first, last } => (first, last),
-            _ => {
-                thread.travel(lane.start(), source.top);
-                thread.start();
-                thread.lay(&flat, level);
-                if !self.goes_on(index) {
-                    thread.stop();
-                }
-                return thread.finish();
-            }
-        };
-        let bottom = self.below(index).map_or(source.top - source.bead.height.0, |(below, _)| below.top);
-        let climb = (bottom, source.top);
-        if first {
-            // What comes from a base or a flat turn is there already; over layers the thread begins here.
-            match self.below(index) {
-                Some((_, Role::Layered | Role::Turn { .. })) | None => {
-                    thread.travel(lane.start(), bottom);
-                    thread.start();
-                }
-                _ => {}
-            }
-            self.grounded(index, &flat, notes);
-            thread.lay(&flat, Course { heights: climb, gaps: (0.0, height), ..level });
-        } else if let (Some(below), Some((source_below, _))) = (&self.lanes[index - 1], self.below(index)) {
-            let turn = Turn::blended(below, lane, source.bead.width.um() / 2.0).thinned(tolerance);
-            if turn.reach.0 > source.bead.width.um() / 2.0 {
-                notes.spot(index, point(turn.reach.1), OVERHANG);
-                // The next turn begins on this outline, while what is below it there began on the one below.
-                if !last {
-                    notes.spot(index + 1, point(turn.reach.1), OVERHANG);
-                }
-            }
-            let gaps = (source_below.bead.height.um(), height);
-            thread.lay(&turn.way, Course { heights: climb, gaps, ..level });
-        }
-        if last {
-            thread.lay(&flat, Course { gaps: (height, 0.0), ..level });
-            thread.stop();
-            for _ in 0..self.coil.rim_turns {
-                flat.iter().skip(1).for_each(|at| thread.travel(*at, source.top));
-            }
-        }
-        thread.finish()
-    }
-
-    /// Says where the first turn of a wall finds no clay below it.
-    fn grounded(&self, index: usize, way: &[Spot], notes: &mut Notes) {
-        let Some((below, role)) = self.below(index) else { return };
-        let half = self.sources[index].bead.width.um() / 2.0;
-        let beads = match (role, &below.wall) {
-            (Role::Turn { .. } | Role::Flat, Ok(wall)) => &wall.beads,
-            _ => &below.outlines,
-        };
-        let beads: Vec<Track> = beads.iter().filter_map(Track::new).collect();
-        let filled = matches!(role, Role::Base { .. } | Role::Layered);
-        let near = |at: &Spot| beads.iter().any(|bead| distance(bead.at(bead.nearest(*at)), *at) <= half);
-        let ground = |at: &&Spot| (filled && below.holds(point(**at))) || near(at);
-        if let Some(at) = way.iter().find(|at| !ground(at)) {
-            notes.spot(index, point(*at), OVERHANG);
-        }
-    }
 }
-
-const OVERHANG: &str = "the turn reaches more than half a bead over the one below: it may sag";
-
-/// A turn keeps no corner nearer to a straight line than half a hundredth of a bead.
-const FINENESS: f64 = 200.0;
 
 /// Which layers are solid: those that fill has made so, and the full ones below a wall that is drawn, for who draws the
 /// wall draws the floor, too.
@@ -228,17 +107,18 @@ fn floors(sources: &[Source]) -> Vec<bool> {
     floors
 }
 
-/// The rings of a layer that may be one of the base.
-fn rings(coil: &Coil, source: &Source, floor: bool) -> Option<Rings> {
-    let wall = source.wall.as_ref().ok().filter(|_| floor)?;
-    Rings::inside(wall.beads.first()?, source.bead.spacing().um() * coil.base_spacing.f64())
+/// What a layer may be made of that may be one of the base.
+fn made(coil: &Coil, source: &Source, floor: bool) -> Option<Floor> {
+    let wall = source.wall.as_ref().ok().filter(|_| floor && coil.base != Base::AsFilled)?;
+    let spacing = source.bead.spacing().um();
+    Floor::inside(wall.beads.first()?, spacing, spacing * coil.base_spacing.f64(), coil.base)
 }
 
 /// What each layer becomes, but for what the one above must be known.
 fn roles(
     coil: &Coil,
     sources: &[Source],
-    rings: &[Option<Rings>],
+    made: &[Option<Floor>],
     floors: &[bool],
     notes: &mut Notes,
 ) -> Vec<Role> {
@@ -264,14 +144,20 @@ fn roles(
                 notes.layer(index, "it stays as fill laid it: it closes what is open below");
                 Role::Layered
             }
-            _ if floors[index] && !on_turn => match (&rings[index], coil.base) {
+            _ if floors[index] && !on_turn => match (&made[index], coil.base) {
                 (_, Base::AsFilled) => Role::Layered,
                 (None, _) => {
                     notes.layer(index, "the base stays as fill laid it: it has no single middle to go round");
                     Role::Layered
                 }
-                (Some(_), Base::InAndOut) => {
-                    Role::Base { outwards: true, goes_on: matches!(below, Some(Role::Base { .. })) }
+                (Some(floor), base) => {
+                    if base == Base::ZigZag && floor.has_rings() {
+                        notes.layer(index, "lines would fall apart on it: the base goes round and round");
+                    }
+                    let alike = |below: &Floor| below.has_rings() == floor.has_rings();
+                    let on_base = matches!(below, Some(Role::Base { .. }));
+                    let goes_on = on_base && made[index - 1].as_ref().is_some_and(alike);
+                    Role::Base { outwards: true, goes_on }
                 }
             },
             None => Role::Flat,
@@ -299,13 +185,16 @@ fn finish(roles: &mut [Role]) {
 }
 
 /// A place on each wall where its seam would be if it did not move on, and how many turns there are below it.
-fn anchors(sources: &[Source], roles: &[Role]) -> Vec<Option<(Spot, usize)>> {
+fn anchors(sources: &[Source], roles: &[Role], made: &[Option<Floor>]) -> Vec<Option<(Spot, usize)>> {
     let mut anchors: Vec<Option<(Spot, usize)>> = Vec::with_capacity(sources.len());
-    for (source, role) in sources.iter().zip(roles) {
+    for (index, (source, role)) in sources.iter().zip(roles).enumerate() {
         let before = match role {
             Role::Turn { first: false, .. } => anchors.last().copied().flatten(),
-            Role::Turn { first: true, .. } | Role::Flat => match anchors.last() {
-                Some(Some((at, turns))) => Some((*at, *turns)),
+            Role::Turn { first: true, .. } | Role::Flat => match (anchors.last(), index.checked_sub(1)) {
+                (Some(Some((at, turns))), _) => Some((*at, *turns)),
+                (_, Some(below)) if matches!(roles[below], Role::Base { .. }) => {
+                    Some((made[below].as_ref().map_or(source.start, |floor| floor.seam(source.start)), 0))
+                }
                 _ => Some((source.start, 0)),
             },
             Role::Base { .. } | Role::Layered => None,
@@ -319,7 +208,7 @@ fn anchors(sources: &[Source], roles: &[Role]) -> Vec<Option<(Spot, usize)>> {
     anchors
 }
 
-/// The way of a turn.
+/// The closed way of a wall.
 fn lane(coil: &Coil, source: &Source, index: usize, (anchor, turns): &(Spot, usize)) -> Option<Lane> {
     let wall = source.wall.as_ref().ok()?;
     let waved = if coil.wave_height.0 > 0 { waved(coil, wall, index, *anchor) } else { None };
@@ -328,6 +217,17 @@ fn lane(coil: &Coil, source: &Source, index: usize, (anchor, turns): &(Spot, usi
     let outermost = tracks.first()?;
     let step = if tracks.len() > 1 { coil.seam_step.f64() * wall.pitch * (*turns as f64 - 1.0) } else { 0.0 };
     Lane::new(&tracks, outermost.nearest(*anchor) + step, wall.pitch)
+}
+
+/// The way of a turn: from the lane below, or on its own where that is level.
+fn turn(roles: &[Role], lanes: &[Option<Lane>], index: usize) -> Option<Turn> {
+    let lane = lanes[index].as_ref()?;
+    match roles[index] {
+        Role::Turn { first: false, .. } => {
+            Some(Turn::blended(lanes.get(index.checked_sub(1)?)?.as_ref()?, lane))
+        }
+        _ => Some(Turn::flat(lane)),
+    }
 }
 
 /// The wall with waves, if its beads still lie one inside the other.
@@ -349,21 +249,20 @@ fn bases(
     sources: &[Source],
     roles: &[Role],
     lanes: &[Option<Lane>],
-    rings: Vec<Option<Rings>>,
-) -> Vec<Option<(Rings, Vec<Spot>)>> {
+    made: Vec<Option<Floor>>,
+) -> Vec<Option<Vec<(Spot, f64)>>> {
     let mut above: Option<Spot> = None;
-    let mut bases: Vec<Option<(Rings, Vec<Spot>)>> = Vec::with_capacity(sources.len());
-    let all = sources.iter().zip(roles).zip(lanes).zip(rings);
-    for (((source, role), lane), rings) in all.rev() {
-        let base = match (role, rings) {
-            (Role::Base { outwards, .. }, Some(rings)) => {
-                let way = rings.thread(above.unwrap_or(source.start), *outwards);
-                Some((rings, way))
+    let mut bases: Vec<Option<Vec<(Spot, f64)>>> = Vec::with_capacity(sources.len());
+    let all = sources.iter().zip(roles).zip(lanes).zip(made);
+    for (((source, role), lane), floor) in all.rev() {
+        let base = match (role, floor) {
+            (Role::Base { outwards, .. }, Some(floor)) => {
+                Some(floor.thread(above.unwrap_or(source.start), *outwards))
             }
             _ => None,
         };
         above = match (&base, lane) {
-            (Some((_, way)), _) => way.first().copied(),
+            (Some(way), _) => way.first().map(|it| it.0),
             (None, Some(lane)) => Some(lane.start()),
             _ => None,
         };
@@ -371,19 +270,4 @@ fn bases(
     }
     bases.reverse();
     bases
-}
-
-/// What is left of a way behind a length from its start.
-fn behind(way: &[Spot], at: f64) -> Vec<Spot> {
-    let mut left = at;
-    for (index, side) in way.windows(2).enumerate() {
-        let length = distance(side[0], side[1]);
-        if length > left {
-            let mut rest = vec![between(side[0], side[1], left / length)];
-            rest.extend_from_slice(&way[index + 1..]);
-            return rest;
-        }
-        left -= length;
-    }
-    way.last().copied().into_iter().collect()
 }

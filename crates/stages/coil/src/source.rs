@@ -97,11 +97,6 @@ impl Source {
         lines.extend([close, Line::Close(Tag::NestedRing), Line::Close(Tag::Layer)]);
         lines
     }
-
-    /// Whether there is clay of this layer under a place.
-    pub fn holds(&self, at: Point) -> bool {
-        self.outlines.iter().filter(|outline| outline.contains(at)).count() % 2 == 1
-    }
 }
 
 /// A layer is solid when its infill takes so much of the room between the walls.
@@ -168,7 +163,7 @@ fn around_clay(laid: &[Ring], beads: usize, spacing: f64) -> Result<Wall, &'stat
     let mut walls = vec![outermost.clone()];
     for (index, ring) in inner.iter().take(wanted - 1).enumerate() {
         if !ring.0.first().is_some_and(|point| walls[index].contains(*point)) {
-            return Err("its inner walls fall apart");
+            return Err("its walls fall apart");
         }
         walls.push(ring.clone());
     }
@@ -210,7 +205,7 @@ const UNEVEN: f64 = 0.25;
 fn inside(outer: &Ring, distance: f64) -> Result<Ring, &'static str> {
     match <[Ring; 1]>::try_from(offset(std::slice::from_ref(outer), -distance)) {
         Ok([ring]) => Ok(ring),
-        Err(_) => Err("its inner walls fall apart"),
+        Err(_) => Err("its walls fall apart"),
     }
 }
 

@@ -23,7 +23,7 @@ impl Waves {
     pub fn across(self, track: &Track, from: f64) -> Ring {
         let round = track.length();
         let step = round / f64::from(self.count * PLACES);
-        let places = crate::turn::divided(&track.way(from, round), step);
+        let places = crate::track::divided(&track.way(from, round), step);
         let mut at = 0.0;
         let mut points = Vec::with_capacity(places.len());
         for pair in places.windows(2) {

@@ -7,12 +7,55 @@ pub type Spot = [f64; 2];
 
 /// How far apart two places are.
 pub fn distance(a: Spot, b: Spot) -> f64 {
-    ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])).sqrt()
+    square(a, b).sqrt()
+}
+
+/// The square of their distance.
+pub fn square(a: Spot, b: Spot) -> f64 {
+    (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
 }
 
 /// The place at a share of the way from one to another.
 pub fn between(a: Spot, b: Spot, share: f64) -> Spot {
     [a[0] + (b[0] - a[0]) * share, a[1] + (b[1] - a[1]) * share]
+}
+
+/// The share of a straight side at which it is nearest to a place: between 0 and 1, and 1 where the side has no length.
+pub fn foot(from: Spot, to: Spot, place: Spot) -> f64 {
+    let along = [to[0] - from[0], to[1] - from[1]];
+    let square = along[0] * along[0] + along[1] * along[1];
+    if square == 0.0 {
+        return 1.0;
+    }
+    let dot = (place[0] - from[0]) * along[0] + (place[1] - from[1]) * along[1];
+    (dot / square).clamp(0.0, 1.0)
+}
+
+/// The way with more corners, so that no side is longer than a step.
+pub fn divided(way: &[Spot], step: f64) -> Vec<Spot> {
+    let mut fine = Vec::with_capacity(way.len() * 2);
+    fine.extend(way.first());
+    for side in way.windows(2) {
+        let parts = (distance(side[0], side[1]) / step).ceil().max(1.0);
+        fine.extend((1..parts as usize).map(|part| between(side[0], side[1], part as f64 / parts)));
+        fine.push(side[1]);
+    }
+    fine
+}
+
+/// What is left of a way behind a length from its start.
+pub fn behind(way: &[Spot], at: f64) -> Vec<Spot> {
+    let mut left = at;
+    for (index, side) in way.windows(2).enumerate() {
+        let length = distance(side[0], side[1]);
+        if length > left {
+            let mut rest = vec![between(side[0], side[1], left / length)];
+            rest.extend_from_slice(&way[index + 1..]);
+            return rest;
+        }
+        left -= length;
+    }
+    way.last().copied().into_iter().collect()
 }
 
 /// The place of a point.
@@ -76,13 +119,11 @@ impl Track {
     pub fn nearest(&self, to: Spot) -> f64 {
         let mut best = (f64::INFINITY, 0.0);
         for (index, side) in self.corners.windows(2).enumerate() {
-            let along = [side[1][0] - side[0][0], side[1][1] - side[0][1]];
-            let square = along[0] * along[0] + along[1] * along[1];
-            let dot = (to[0] - side[0][0]) * along[0] + (to[1] - side[0][1]) * along[1];
-            let share = (dot / square).clamp(0.0, 1.0);
-            let gap = distance(between(side[0], side[1], share), to);
+            let share = foot(side[0], side[1], to);
+            let gap = square(between(side[0], side[1], share), to);
             if gap < best.0 {
-                best = (gap, self.lengths[index] + share * square.sqrt());
+                let (start, end) = (self.lengths[index], self.lengths[index + 1]);
+                best = (gap, start + share * (end - start));
             }
         }
         best.1
