@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod absorb;
 mod grid;
 mod order;
 mod report;
@@ -8,13 +9,15 @@ mod strand;
 #[cfg(test)]
 mod tests;
 mod tree;
+mod visit;
 mod walk;
 
 use rayon::prelude::*;
+use grid::Side;
 use report::Report;
 use sheet::{Island, Path, Sheet};
 use skein::{Choice, Error, Layer, Notes, Point, Ratio, Settings, Skein, Stage};
-use tree::Weave;
+use tree::{Start, Weave};
 
 /// Makes one thread of everything that is laid on an island.
 #[derive(Clone, Debug, Settings)]
@@ -71,7 +74,11 @@ impl Stage for Join {
             .enumerate()
             .map(|(index, (layer, entering))| {
                 let z = layer.nozzle_z(&facts)?.0;
-                Sheet::read(layer, z, entering).map_err(|error| error.in_layer(index))
+                let mut sheet = Sheet::read(layer, z, entering).map_err(|error| error.in_layer(index))?;
+                for island in &mut sheet.islands {
+                    island.strands = absorb::absorb(std::mem::take(&mut island.strands), spacings[index]);
+                }
+                Ok(sheet)
             })
             .collect::<Result<Vec<Sheet>, Error>>()?;
         let paths = self.plan(&mut sheets, &spacings);
@@ -118,7 +125,7 @@ impl Join {
             let before = here;
             let mut layer: Vec<Vec<Path>> = Vec::with_capacity(sheet.islands.len());
             for island in &sheet.islands {
-                let paths = self.join(island, *spacing, rise, here.unwrap_or(self.seam_place));
+                let paths = self.join(island, *spacing, rise, here);
                 here = paths.last().map(Path::closed_end).or(here);
                 layer.push(paths);
             }
@@ -136,13 +143,9 @@ impl Join {
     }
 
     /// The threads of an island.
-    fn join(&self, island: &Island, spacing: f64, rise: f64, here: Point) -> Vec<Path> {
-        let seam = match self.seam {
-            Seam::Nearest => here,
-            Seam::Aligned => self.seam_place,
-            Seam::Behind => island.back().unwrap_or(here),
-        };
-        let trees = Weave::new(&island.strands, &island.outlines, spacing).trees(seam);
+    fn join(&self, island: &Island, spacing: f64, rise: f64, here: Option<Point>) -> Vec<Path> {
+        let start = self.start(island, spacing, here);
+        let trees = Weave::new(&island.strands, &island.outlines, spacing).trees(start);
         let mut paths: Vec<Path> = trees.iter().map(|tree| walk::path(&island.strands, tree, rise)).collect();
         // The greatest is first, at the seam; the others follow from its end.
         if paths.len() > 2 {
@@ -153,9 +156,31 @@ impl Join {
         }
         paths
     }
+
+    /// Where the thread of an island begins. It must be there when that is what was asked for, or when clay flows on from
+    /// where the thread before has ended.
+    fn start(&self, island: &Island, spacing: f64, here: Option<Point>) -> Start {
+        let place = match self.seam {
+            Seam::Nearest => here.unwrap_or(self.seam_place),
+            Seam::Aligned => self.seam_place,
+            Seam::Behind => island.back().or(here).unwrap_or(self.seam_place),
+        };
+        let flows = || {
+            let reach = tree::REACH * spacing;
+            self.through_layers && here.is_some_and(|here| island.is_near(here, reach))
+        };
+        Start { place, fixed: self.seam != Seam::Nearest || flows() }
+    }
 }
 
 impl Island {
+    /// Whether one of its walls is near a place.
+    fn is_near(&self, place: Point, reach: f64) -> bool {
+        let walls = self.strands.iter().filter(|strand| strand.closed);
+        let mut sides = walls.flat_map(|strand| strand.sides());
+        sides.any(|(start, from, to)| Side { owner: 0, start, from, to }.nearest(place).1 <= reach)
+    }
+
     /// The box around its beads.
     fn bounds(&self) -> (Point, Point) {
         let mut points = self.strands.iter().flat_map(|strand| strand.points());

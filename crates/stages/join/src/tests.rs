@@ -1,6 +1,6 @@
 use crate::Join;
 use crate::strand::Strand;
-use crate::tree::Weave;
+use crate::tree::{Start, Weave};
 use crate::walk;
 use proptest::prelude::*;
 use skein::{Feature, Line, Notes, Nozzle, Point, Ratio, Ring, Side, Skein, Span, Stage, spans};
@@ -42,7 +42,7 @@ fn clay(paths: &[crate::sheet::Path]) -> f64 {
 }
 
 fn join(strands: &[Strand], outlines: &[Ring]) -> Vec<crate::sheet::Path> {
-    let trees = Weave::new(strands, outlines, SPACING).trees(Point::new(0, 0));
+    let trees = Weave::new(strands, outlines, SPACING).trees(Start { place: Point::new(0, 0), fixed: true });
     trees.iter().map(|tree| walk::path(strands, tree, 0.0)).collect()
 }
 
