@@ -13,7 +13,8 @@ use crate::grid::{Grid, Near, Side};
 use crate::strand::Strand;
 use crate::visit::{Child, Tree, Visit};
 use skein::{Feature, Point, Ring};
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
+use std::ops::Range;
 
 /// Where a tree begins.
 #[derive(Clone, Copy, Debug)]
@@ -31,6 +32,9 @@ const BESIDE: f64 = 1.4;
 /// the wall's next neighbour.
 pub const REACH: f64 = 2.0;
 
+/// How far a bridge may reach to what is beside nothing, in bead spacings: over the empty inside of a wall four beads thick.
+const BRIDGE: f64 = 3.5;
+
 /// An island that is being joined.
 pub struct Weave<'a> {
     strands: &'a [Strand],
@@ -41,6 +45,8 @@ pub struct Weave<'a> {
     /// What each strand's ends are near to, and which ends are near to each strand.
     ends: Vec<Vec<EndContact>>,
     closed_left: usize,
+    /// What was left when a bridge was first looked for.
+    far: Option<Grid>,
 }
 
 /// An end of an open strand beside another strand.
@@ -59,9 +65,7 @@ impl<'a> Weave<'a> {
     pub fn new(strands: &'a [Strand], outlines: &[Ring], spacing: f64) -> Self {
         let reach = REACH * spacing;
         let sides = Grid::new(
-            strands.iter().enumerate().flat_map(|(owner, strand)| {
-                strand.sides().map(move |(start, from, to)| Side { owner: owner as u32, start, from, to })
-            }),
+            strands.iter().enumerate().flat_map(|(owner, strand)| sides(owner, strand)),
             reach,
         );
         let outlines = Grid::new(
@@ -73,24 +77,39 @@ impl<'a> Weave<'a> {
         let closed_left = strands.iter().filter(|strand| strand.closed).count();
         let visited = vec![false; strands.len()];
         let ends = vec![Vec::new(); strands.len()];
-        let mut weave = Self { strands, sides, outlines, spacing, visited, ends, closed_left };
+        let mut weave = Self { strands, sides, outlines, spacing, visited, ends, closed_left, far: None };
         weave.find_ends();
         weave
     }
 
     /// Of every end of an open strand the nearest strand, the nearest wall and the nearest wall that is not seen: where
-    /// several open strands meet, the nearest is often another that leads nowhere.
+    /// several open strands meet, the nearest is often another that leads nowhere. And what is beside one end and the other
+    /// as well.
     fn find_ends(&mut self) {
         for (index, strand) in self.strands.iter().enumerate().filter(|(_, strand)| !strand.closed) {
-            for here in [0.0, strand.length()] {
-                let near = [
-                    self.beside_end(index, here, |_| true),
-                    self.beside_end(index, here, |other| other.closed),
-                    self.beside_end(index, here, |other| other.closed && !is_edge(other)),
-                ];
-                for (place, found) in near.iter().enumerate() {
-                    let (Some(found), false) = (found, near[..place].contains(found)) else { continue };
-                    let (other, there) = (found.owner as usize, found.along);
+            let places = [0.0, strand.length()];
+            let mut beside = places.map(|here| {
+                let mut found: Vec<Near> = Vec::with_capacity(4);
+                let mut add = |near: Option<Near>| found.extend(near.filter(|near| !found.contains(near)));
+                add(self.beside_end(index, here, |_| true));
+                add(self.beside_end(index, here, |other| self.strands[other].closed));
+                add(self.beside_end(index, here, |other| {
+                    self.strands[other].closed && !is_edge(&self.strands[other])
+                }));
+                found
+            });
+            for (end, here) in places.iter().enumerate() {
+                for other in beside[1 - end].clone() {
+                    let is_new = beside[end].iter().all(|near| near.owner != other.owner);
+                    let near = is_new
+                        .then(|| self.beside_end(index, *here, |owner| owner == other.owner as usize))
+                        .flatten();
+                    beside[end].extend(near.filter(|near| near.distance <= BESIDE * self.spacing));
+                }
+            }
+            for (here, found) in places.into_iter().zip(beside) {
+                for near in found {
+                    let (other, there) = (near.owner as usize, near.along);
                     self.ends[index].push(EndContact { here, other, there });
                     self.ends[other].push(EndContact { here: there, other: index, there: here });
                 }
@@ -99,9 +118,9 @@ impl<'a> Weave<'a> {
     }
 
     /// What an end of an open strand is nearest to, if the way there is inside.
-    fn beside_end(&self, index: usize, here: f64, wanted: impl Fn(&Strand) -> bool) -> Option<Near> {
+    fn beside_end(&self, index: usize, here: f64, wanted: impl Fn(usize) -> bool) -> Option<Near> {
         let at = self.strands[index].at(here);
-        let wanted = |other: u32| other as usize != index && wanted(&self.strands[other as usize]);
+        let wanted = |other: u32| other as usize != index && wanted(other as usize);
         let near = self.sides.nearest(at, wanted)?;
         let there = self.strands[near.owner as usize].at(near.along);
         (!self.outlines.is_crossed(at, there)).then_some(near)
@@ -216,11 +235,59 @@ impl<'a> Weave<'a> {
         near.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(0.0, |(_, along)| along)
     }
 
-    /// Adds everything that can be reached, strand by strand.
+    /// Adds everything that can be reached, strand by strand, and then what a bridge leads to.
     fn grow(&mut self, tree: &mut Tree, mut queue: VecDeque<usize>, seam: Point) {
-        while let Some(visit) = queue.pop_front() {
-            self.add_walls(tree, visit, seam, &mut queue);
-            self.add_ends(tree, visit, &mut queue);
+        let mut bridged = 0;
+        loop {
+            while let Some(visit) = queue.pop_front() {
+                self.add_walls(tree, visit, seam, &mut queue);
+                self.add_ends(tree, visit, &mut queue);
+            }
+            if self.visited.iter().all(|visited| *visited) || bridged == tree.visits.len() {
+                return;
+            }
+            let parents = bridged..tree.visits.len();
+            bridged = parents.end;
+            self.bridge(tree, parents, &mut queue);
+        }
+    }
+
+    /// Leads from strands to all that lie within a bridge of them, each by its shortest way.
+    fn bridge(&mut self, tree: &mut Tree, parents: Range<usize>, queue: &mut VecDeque<usize>) {
+        let reach = BRIDGE * self.spacing;
+        let (strands, visited) = (self.strands, &self.visited);
+        let far = self.far.get_or_insert_with(|| {
+            let left = strands.iter().enumerate().filter(|(index, _)| !visited[*index]);
+            Grid::new(left.flat_map(|(owner, strand)| sides(owner, strand)), reach)
+        });
+        let mut shortest: BTreeMap<u32, (usize, f64, Near)> = BTreeMap::new();
+        for parent in parents {
+            let visit = &tree.visits[parent];
+            let steps = (visit.length / self.spacing).ceil().max(1.0);
+            for step in 0..=steps as usize {
+                let leave = visit.free_near(visit.length * step as f64 / steps);
+                let at = strands[visit.strand].at(visit.on_strand(leave));
+                let Some(near) = far.nearest(at, |other| !visited[other as usize]) else { continue };
+                let place = strands[near.owner as usize].at(near.along);
+                let nearer = shortest.get(&near.owner).is_none_or(|best| near.distance < best.2.distance);
+                if nearer && !self.outlines.is_crossed(at, place) {
+                    shortest.insert(near.owner, (parent, leave, near));
+                }
+            }
+        }
+        for (owner, (parent, leave, near)) in shortest {
+            let strand = &strands[owner as usize];
+            // An open strand is entered at one of its ends.
+            let whole = strand.length();
+            let entry = match strand.closed {
+                true => near.along,
+                false if near.along < whole / 2.0 => 0.0,
+                false => whole,
+            };
+            let (from, to) = (self.place(&tree.visits[parent], leave), strand.at(entry));
+            if from.distance(to) <= reach && !self.outlines.is_crossed(from, to) {
+                self.stem(tree, parent, leave, owner as usize, entry, queue);
+            }
         }
     }
 
@@ -439,6 +506,11 @@ const UNEVEN: f64 = 0.5;
 const ARCH: f64 = 1.5;
 /// The flow of a step over is within so much of a bead's.
 const MOST: f64 = 0.6;
+
+/// The sides of a strand.
+fn sides(owner: usize, strand: &Strand) -> impl Iterator<Item = Side> {
+    strand.sides().map(move |(start, from, to)| Side { owner: owner as u32, start, from, to })
+}
 
 /// Whether a strand is seen from outside.
 fn is_edge(strand: &Strand) -> bool {
