@@ -1,4 +1,4 @@
-//! Beads in gaps narrower than a bead are taken up by the walls beside them.
+//! Beads in gaps narrower than a bead, and infill too short to be laid, are taken up by the walls beside them.
 //!
 //! A thread that reaches such a bead would have to come back from its end, in two lanes too thin for any nozzle. The walls
 //! on both sides are there anyway: each becomes wider by half of what the gap holds, and its middle moves towards the gap by
@@ -6,6 +6,7 @@
 
 use crate::grid::{Grid, Side};
 use crate::strand::Strand;
+use crate::tree::REACH;
 use skein::{Feature, Point};
 
 /// A bead takes a third more than its nominal clay before it bulges.
@@ -44,10 +45,10 @@ impl Piece {
 
 /// Takes up what is thin; the spacing of the beads is in microns.
 pub fn absorb(strands: Vec<Strand>, spacing: f64) -> Vec<Strand> {
-    let is_wall = |strand: &Strand| {
-        strand.closed && matches!(strand.feature, Feature::Edge(_) | Feature::Loop(_))
-    };
-    let is_thin = |strand: &Strand| !strand.closed && strand.feature == Feature::Middle;
+    let is_wall =
+        |strand: &Strand| strand.closed && matches!(strand.feature, Feature::Edge(_) | Feature::Loop(_));
+    let is_stub = |strand: &Strand| strand.feature == Feature::Infill && strand.length() < spacing / 2.0;
+    let is_thin = |strand: &Strand| !strand.closed && (strand.feature == Feature::Middle || is_stub(strand));
     if !strands.iter().any(is_thin) || !strands.iter().any(is_wall) {
         return strands;
     }
@@ -55,11 +56,11 @@ pub fn absorb(strands: Vec<Strand>, spacing: f64) -> Vec<Strand> {
     let sides = walls.flat_map(|(owner, strand)| {
         strand.sides().map(move |(start, from, to)| Side { owner: owner as u32, start, from, to })
     });
-    let grid = Grid::new(sides, spacing);
+    let grid = Grid::new(sides, REACH * spacing);
     let mut gains: Vec<Vec<Gain>> = vec![Vec::new(); strands.len()];
     let mut rests: Vec<Option<Vec<Strand>>> = vec![None; strands.len()];
     for (index, strand) in strands.iter().enumerate().filter(|(_, strand)| is_thin(strand)) {
-        let pieces = pieces(strand, &strands, &grid, spacing);
+        let pieces = if is_stub(strand) { Vec::new() } else { pieces(strand, &strands, &grid, spacing) };
         let taken: f64 = pieces.iter().filter(|piece| !piece.gains.is_empty()).map(Piece::clay).sum();
         let (rest, crumbs) = rest(strand, &pieces, spacing);
         if taken == 0.0 {
@@ -177,34 +178,54 @@ fn rest(strand: &Strand, pieces: &[Piece], spacing: f64) -> (Vec<Strand>, f64) {
     (rest, crumbs)
 }
 
+/// A place on a wall from where more or less clay flows.
+struct Change {
+    place: f64,
+    flow: f64,
+    shift: f64,
+    corner: bool,
+}
+
 /// A wall with what it takes up.
 fn widened(wall: &Strand, gains: &[Gain], spacing: f64) -> Strand {
     let whole = wall.length();
     // Where the clay of a stretch begins and ends: the place, the flow, and how far the middle moves to the left.
-    let mut changes: Vec<(f64, f64, f64)> = Vec::with_capacity(gains.len() * 3);
+    let mut changes: Vec<Change> = Vec::with_capacity(gains.len() * 3);
     for gain in gains {
         let flow = gain.clay / (gain.to - gain.from);
         let shift = gain.side * flow * spacing / 2.0;
-        changes.push((gain.from, flow, shift));
+        let mut change = |place, sign: f64| {
+            changes.push(Change { place, flow: sign * flow, shift: sign * shift, corner: false });
+        };
+        change(gain.from, 1.0);
         if gain.to <= whole {
-            changes.push((gain.to, -flow, -shift));
+            change(gain.to, -1.0);
         } else {
-            changes.extend([(whole, -flow, -shift), (0.0, flow, shift), (gain.to - whole, -flow, -shift)]);
+            change(whole, -1.0);
+            change(0.0, 1.0);
+            change(gain.to - whole, -1.0);
         }
     }
-    changes.extend(wall.sides().map(|(start, ..)| (start, 0.0, 0.0)));
-    changes.sort_by(|one, other| one.0.total_cmp(&other.0));
+    let corners = wall.sides().map(|(place, ..)| Change { place, flow: 0.0, shift: 0.0, corner: true });
+    changes.extend(corners);
+    changes.sort_by(|one, other| one.place.total_cmp(&other.place));
     let mut sides: Vec<(Point, f64, f64)> = Vec::with_capacity(changes.len());
-    let (mut flow, mut shift) = (0.0, 0.0);
+    let (mut flow, mut shift, mut corner) = (0.0, 0.0, false);
     for (index, change) in changes.iter().enumerate() {
-        flow += change.1;
-        shift += change.2;
-        let next = changes.get(index + 1).map_or(whole, |next| next.0);
+        flow += change.flow;
+        shift += change.shift;
+        corner |= change.corner;
+        let next = changes.get(index + 1).map_or(whole, |next| next.place);
         // What begins at the same micron is one place.
-        if next - change.0 >= 1.0 {
-            let own = wall.laid(change.0, next) / (next - change.0);
-            sides.push((wall.at(change.0), own + flow.max(0.0), shift));
+        if next - change.place < 1.0 {
+            continue;
         }
+        let share = wall.laid(change.place, next) / (next - change.place) + flow.max(0.0);
+        let same = |last: &(Point, f64, f64)| (last.1 - share).abs() < 1e-3 && (last.2 - shift).abs() < 1.0;
+        if corner || !sides.last().is_some_and(same) {
+            sides.push((wall.at(change.place), share, shift));
+        }
+        corner = false;
     }
     let count = sides.len();
     let points: Vec<Point> = (0..count)

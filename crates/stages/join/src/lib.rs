@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod absorb;
+mod fence;
 mod grid;
 mod order;
 mod report;
@@ -12,8 +13,8 @@ mod tree;
 mod visit;
 mod walk;
 
-use rayon::prelude::*;
 use grid::Side;
+use rayon::prelude::*;
 use report::Report;
 use shape::plane::Bounds;
 use sheet::{Island, Path, Plan, Sheet};
@@ -50,6 +51,9 @@ pub enum Seam {
     Behind,
 }
 
+/// How many layers are prepared together.
+const BATCH: usize = 64;
+
 impl Stage for Join {
     const NAME: &'static str = "join";
 
@@ -81,7 +85,9 @@ impl Stage for Join {
             .collect::<Result<Vec<Sheet>, Error>>()?;
         let left = sheets.iter().filter(|sheet| sheet.kept.is_some()).count();
         if left > 0 {
-            notes.say(format!("{left} layers stay as they are: clay goes on from layer to layer there already"));
+            notes.say(format!(
+                "{left} layers stay as they are: clay goes on from layer to layer there already"
+            ));
         }
         let plans = self.plan(&sheets, &spacings);
         let report = Report::new(&sheets, &plans, spacings.first().copied().unwrap_or(1.0));
@@ -112,44 +118,53 @@ impl Join {
     /// The order of the islands of every layer, and their paths. Where a layer begins depends on where the one before
     /// ended.
     fn plan(&self, sheets: &[Sheet], spacings: &[f64]) -> Vec<Plan> {
-        let weaves: Vec<Vec<Weave>> = sheets
-            .par_iter()
-            .zip(spacings)
-            .map(|(sheet, spacing)| {
-                let islands = sheet.islands.iter();
-                islands.map(|island| Weave::new(&island.strands, &island.outlines, *spacing)).collect()
-            })
-            .collect();
         let mut here: Option<Point> = None;
         let mut plans: Vec<Plan> = Vec::with_capacity(sheets.len());
-        for ((sheet, weaves), spacing) in sheets.iter().zip(weaves).zip(spacings) {
-            if let Some(end) = &sheet.kept {
-                here = end.or(here);
-                plans.push(Plan::default());
-                continue;
+        // What lies beside what is found side by side, for so many layers at a time that it takes little room.
+        for (sheets, spacings) in sheets.chunks(BATCH).zip(spacings.chunks(BATCH)) {
+            let weaves: Vec<Vec<Weave>> =
+                sheets.par_iter().zip(spacings).map(|(sheet, spacing)| sheet.weaves(*spacing)).collect();
+            for ((sheet, weaves), spacing) in sheets.iter().zip(weaves).zip(spacings) {
+                let plan = self.plan_layer(sheet, weaves, *spacing, &mut here, plans.last());
+                plans.push(plan);
             }
-            let boxes: Vec<Bounds> = sheet.islands.iter().map(Island::bounds).collect();
-            let mut plan = Plan { order: order::order(here.unwrap_or(self.seam_place), &boxes), paths: Vec::new() };
-            let rise = if self.through_layers { *spacing } else { 0.0 };
-            let before = here;
-            let mut weaves: Vec<Option<Weave>> = weaves.into_iter().map(Some).collect();
-            for index in &plan.order {
-                let Some(weave) = weaves[*index].take() else { continue };
-                let paths = self.join(&sheet.islands[*index], weave, *spacing, rise, here);
-                here = paths.last().map(Path::closed_end).or(here);
-                plan.paths.push(paths);
-            }
-            if let (true, Some(before), Some(first)) =
-                (self.through_layers, before, plan.paths.iter_mut().flatten().next())
-            {
-                let near = before.distance(first.start) <= tree::REACH * spacing;
-                // Nothing flows through a layer without beads.
-                first.flows_on =
-                    near && plans.last().is_some_and(|below| below.paths.iter().any(|paths| !paths.is_empty()));
-            }
-            plans.push(plan);
         }
         plans
+    }
+
+    /// The same for a layer; `here` is where the layer below has ended, and then where this one does.
+    fn plan_layer(
+        &self,
+        sheet: &Sheet,
+        weaves: Vec<Weave>,
+        spacing: f64,
+        here: &mut Option<Point>,
+        below: Option<&Plan>,
+    ) -> Plan {
+        if let Some(end) = sheet.kept {
+            *here = end.or(*here);
+            return Plan::default();
+        }
+        let boxes: Vec<Bounds> = sheet.islands.iter().map(Island::bounds).collect();
+        let order = order::order(here.unwrap_or(self.seam_place), &boxes);
+        let mut plan = Plan { order, paths: Vec::with_capacity(boxes.len()) };
+        let rise = if self.through_layers { spacing } else { 0.0 };
+        let before = *here;
+        let mut weaves: Vec<Option<Weave>> = weaves.into_iter().map(Some).collect();
+        for index in &plan.order {
+            let Some(weave) = weaves[*index].take() else { continue };
+            let paths = self.join(&sheet.islands[*index], weave, spacing, rise, *here);
+            *here = paths.last().map(Path::closed_end).or(*here);
+            plan.paths.push(paths);
+        }
+        if let (true, Some(before), Some(first)) =
+            (self.through_layers, before, plan.paths.iter_mut().flatten().next())
+        {
+            // Nothing flows through a layer without beads.
+            first.flows_on = before.distance(first.start) <= tree::REACH * spacing
+                && below.is_some_and(|below| below.paths.iter().any(|paths| !paths.is_empty()));
+        }
+        plan
     }
 
     /// The threads of an island.

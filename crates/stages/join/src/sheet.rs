@@ -1,6 +1,7 @@
 //! A layer taken apart into its islands, and written again.
 
 use crate::strand::Strand;
+use crate::tree::Weave;
 use skein::{Error, Feature, Layer, Line, Mark, Nozzle, Pen, Point, Point3, Ratio, Ring, Tag};
 
 /// A layer: lines that stay, and islands between them.
@@ -161,6 +162,12 @@ impl Sheet {
             sheet.islands.push(loose);
         }
         Ok(sheet)
+    }
+
+    /// What lies beside what on each island; the spacing of the beads is in microns.
+    pub fn weaves(&self, spacing: f64) -> Vec<Weave<'_>> {
+        let islands = self.islands.iter();
+        islands.map(|island| Weave::new(&island.strands, &island.outlines, spacing)).collect()
     }
 
     /// Writes the layer. `flows` are the flow in front of it and the one to leave behind it; `goes_on` is whether its last

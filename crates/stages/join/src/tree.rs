@@ -9,6 +9,7 @@
 //! * A **stem** goes to a strand and comes back the same way. What is gone over twice is two half beads side by side; the
 //!   clay of the way is taken from the strand.
 
+use crate::fence::Fence;
 use crate::grid::{Grid, Near, Side};
 use crate::strand::Strand;
 use crate::visit::{Child, Tree, Visit};
@@ -39,7 +40,7 @@ const BRIDGE: f64 = 3.5;
 pub struct Weave<'a> {
     strands: &'a [Strand],
     sides: Grid,
-    outlines: Grid,
+    outlines: Fence<'a>,
     spacing: f64,
     visited: Vec<bool>,
     /// What each strand's ends are near to, and which ends are near to each strand.
@@ -62,18 +63,13 @@ struct EndContact {
 
 impl<'a> Weave<'a> {
     /// Finds what lies beside what; the spacing of the beads is in microns.
-    pub fn new(strands: &'a [Strand], outlines: &[Ring], spacing: f64) -> Self {
+    pub fn new(strands: &'a [Strand], outlines: &'a [Ring], spacing: f64) -> Self {
         let reach = REACH * spacing;
-        let sides = Grid::new(
-            strands.iter().enumerate().flat_map(|(owner, strand)| sides(owner, strand)),
-            reach,
-        );
-        let outlines = Grid::new(
-            outlines.iter().enumerate().flat_map(|(owner, ring)| {
-                ring.segments().map(move |(from, to)| Side { owner: owner as u32, start: 0.0, from, to })
-            }),
-            reach,
-        );
+        // Nothing is looked for on the only strand that is open, and it is the one with the longest sides.
+        let open = strands.iter().filter(|strand| !strand.closed).count();
+        let wanted = strands.iter().enumerate().filter(|(_, strand)| strand.closed || open > 1);
+        let sides = Grid::new(wanted.flat_map(|(owner, strand)| sides(owner, strand)), reach);
+        let outlines = Fence::new(outlines, reach);
         let closed_left = strands.iter().filter(|strand| strand.closed).count();
         let visited = vec![false; strands.len()];
         let ends = vec![Vec::new(); strands.len()];
@@ -96,6 +92,7 @@ impl<'a> Weave<'a> {
                 add(self.beside_end(index, here, |other| {
                     self.strands[other].closed && !is_edge(&self.strands[other])
                 }));
+                found.retain(|near| self.is_inside(index, here, near));
                 found
             });
             for (end, here) in places.iter().enumerate() {
@@ -104,7 +101,9 @@ impl<'a> Weave<'a> {
                     let near = is_new
                         .then(|| self.beside_end(index, *here, |owner| owner == other.owner as usize))
                         .flatten();
-                    beside[end].extend(near.filter(|near| near.distance <= BESIDE * self.spacing));
+                    beside[end].extend(near.filter(|near| {
+                        near.distance <= BESIDE * self.spacing && self.is_inside(index, *here, near)
+                    }));
                 }
             }
             for (here, found) in places.into_iter().zip(beside) {
@@ -117,13 +116,16 @@ impl<'a> Weave<'a> {
         }
     }
 
-    /// What an end of an open strand is nearest to, if the way there is inside.
+    /// What an end of an open strand is nearest to.
     fn beside_end(&self, index: usize, here: f64, wanted: impl Fn(usize) -> bool) -> Option<Near> {
-        let at = self.strands[index].at(here);
         let wanted = |other: u32| other as usize != index && wanted(other as usize);
-        let near = self.sides.nearest(at, wanted)?;
+        self.sides.nearest(self.strands[index].at(here), wanted)
+    }
+
+    /// Whether the way from an end of a strand to what is near it crosses no outline.
+    fn is_inside(&self, index: usize, here: f64, near: &Near) -> bool {
         let there = self.strands[near.owner as usize].at(near.along);
-        (!self.outlines.is_crossed(at, there)).then_some(near)
+        !self.outlines.is_crossed(self.strands[index].at(here), there)
     }
 
     /// The trees of the island: the first begins at the seam, each further one near it.
@@ -180,8 +182,7 @@ impl<'a> Weave<'a> {
             let ahead = self.strands[end.other].wrapped(end.there - entry);
             let behind = self.strands[end.other].length() - ahead;
             let (again, forward) = if ahead <= behind { (ahead, true) } else { (behind, false) };
-            let way =
-                if start.fixed { again } else { seam.distance(self.strands[end.other].at(end.there)) };
+            let way = if start.fixed { again } else { seam.distance(self.strands[end.other].at(end.there)) };
             let seen = is_edge(&self.strands[end.other]);
             if best.is_none_or(|(edge, least, ..)| (seen, way) < (edge, least)) {
                 best = Some((seen, way, *end, entry, again, forward));
@@ -207,7 +208,16 @@ impl<'a> Weave<'a> {
     fn root(&mut self, strand: usize, entry: f64, forward: bool) -> Visit {
         self.take(strand);
         let length = self.strands[strand].length();
-        Visit { strand, entry, forward, length, returns: false, share: 1.0, children: Vec::new(), halves: Vec::new() }
+        Visit {
+            strand,
+            entry,
+            forward,
+            length,
+            returns: false,
+            share: 1.0,
+            children: Vec::new(),
+            halves: Vec::new(),
+        }
     }
 
     fn take(&mut self, strand: usize) {
@@ -310,13 +320,7 @@ impl<'a> Weave<'a> {
     /// Takes an open strand in on the way, when both of its ends are beside the walk. Where they are a bead or two apart,
     /// the walk between them is left out; where they are farther, that stretch is laid in two halves, if it is shorter than
     /// the strand.
-    fn arch(
-        &mut self,
-        tree: &mut Tree,
-        parent: usize,
-        strand: usize,
-        queue: &mut VecDeque<usize>,
-    ) -> bool {
+    fn arch(&mut self, tree: &mut Tree, parent: usize, strand: usize, queue: &mut VecDeque<usize>) -> bool {
         let visit = &tree.visits[parent];
         let whole = self.strands[strand].length();
         let contact = |there: f64| {

@@ -107,4 +107,3 @@ impl Child {
         self.resume.unwrap_or(self.leave).max(self.leave)
     }
 }
-
