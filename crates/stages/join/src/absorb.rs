@@ -62,20 +62,23 @@ pub fn absorb(strands: Vec<Strand>, spacing: f64) -> Vec<Strand> {
     for (index, strand) in strands.iter().enumerate().filter(|(_, strand)| is_thin(strand)) {
         let pieces = if is_stub(strand) { Vec::new() } else { pieces(strand, &strands, &grid, spacing) };
         let taken: f64 = pieces.iter().filter(|piece| !piece.gains.is_empty()).map(Piece::clay).sum();
-        let (rest, crumbs) = rest(strand, &pieces, spacing);
+        let (mut left, mut crumbs) = rest(strand, &pieces, spacing);
         if taken == 0.0 {
-            if let (true, Some((wall, gain))) = (rest.is_empty(), crumb(strand, &grid, spacing)) {
+            if let (true, Some((wall, gain))) = (left.is_empty(), crumb(strand, &grid, spacing)) {
                 gains[wall].push(gain);
-                rests[index] = Some(rest);
+                rests[index] = Some(left);
             }
             continue;
+        }
+        if crumbs > taken / 4.0 {
+            (left, crumbs) = rest(strand, &pieces, 0.0);
         }
         // What is too short to be laid goes where the rest of the bead went.
         let factor = 1.0 + crumbs / taken;
         for (wall, gain) in pieces.into_iter().flat_map(|piece| piece.gains) {
             gains[wall].push(Gain { clay: gain.clay * factor, ..gain });
         }
-        rests[index] = Some(rest);
+        rests[index] = Some(left);
     }
     let mut laid = Vec::with_capacity(strands.len());
     for ((strand, gains), rest) in strands.into_iter().zip(gains).zip(rests) {
@@ -158,8 +161,8 @@ fn crumb(strand: &Strand, grid: &Grid, spacing: f64) -> Option<(usize, Gain)> {
     (clay / spacing <= MOST).then_some((near.owner as usize, gain))
 }
 
-/// What is left to be laid: stretches of a bead's width at least. The clay of shorter ones is told beside.
-fn rest(strand: &Strand, pieces: &[Piece], spacing: f64) -> (Vec<Strand>, f64) {
+/// What is left to be laid: stretches of at least a length in microns. The clay of shorter ones is told beside.
+fn rest(strand: &Strand, pieces: &[Piece], least: f64) -> (Vec<Strand>, f64) {
     let mut rest = Vec::new();
     let mut crumbs = 0.0;
     for run in pieces.chunk_by(|one, other| one.gains.is_empty() == other.gains.is_empty()) {
@@ -170,7 +173,7 @@ fn rest(strand: &Strand, pieces: &[Piece], spacing: f64) -> (Vec<Strand>, f64) {
         let length: f64 = run.iter().map(|piece| piece.from.distance(piece.to)).sum();
         let points = std::iter::once(first.from).chain(run.iter().map(|piece| piece.to)).collect();
         let flows = run.iter().map(|piece| piece.flow).collect();
-        match Strand::measured(strand.feature, points, flows, false).filter(|_| length >= spacing) {
+        match Strand::measured(strand.feature, points, flows, false).filter(|_| length >= least) {
             Some(strand) => rest.push(strand),
             None => crumbs += run.iter().map(Piece::clay).sum::<f64>(),
         }
@@ -184,6 +187,24 @@ struct Change {
     flow: f64,
     shift: f64,
     corner: bool,
+}
+
+/// A stretch of a wall: where it begins, how much clay it gets, how far its middle moves to the left, and whether it begins
+/// at a corner.
+#[derive(Clone, Copy)]
+struct Stretch {
+    from: Point,
+    length: f64,
+    clay: f64,
+    shift: f64,
+    corner: bool,
+}
+
+impl Stretch {
+    fn is_like(&self, other: &Self) -> bool {
+        (self.clay / self.length - other.clay / other.length).abs() < 0.01
+            && (self.shift - other.shift).abs() < 10.0
+    }
 }
 
 /// A wall with what it takes up.
@@ -209,7 +230,7 @@ fn widened(wall: &Strand, gains: &[Gain], spacing: f64) -> Strand {
     let corners = wall.sides().map(|(place, ..)| Change { place, flow: 0.0, shift: 0.0, corner: true });
     changes.extend(corners);
     changes.sort_by(|one, other| one.place.total_cmp(&other.place));
-    let mut sides: Vec<(Point, f64, f64)> = Vec::with_capacity(changes.len());
+    let mut fine: Vec<Stretch> = Vec::with_capacity(changes.len());
     let (mut flow, mut shift, mut corner) = (0.0, 0.0, false);
     for (index, change) in changes.iter().enumerate() {
         flow += change.flow;
@@ -217,30 +238,43 @@ fn widened(wall: &Strand, gains: &[Gain], spacing: f64) -> Strand {
         corner |= change.corner;
         let next = changes.get(index + 1).map_or(whole, |next| next.place);
         // What begins at the same micron is one place.
-        if next - change.place < 1.0 {
-            continue;
+        if next - change.place >= 1.0 {
+            let length = next - change.place;
+            let clay = wall.laid(change.place, next) + flow.max(0.0) * length;
+            let from = wall.at(change.place);
+            fine.push(Stretch { from, length, clay, shift, corner: std::mem::take(&mut corner) });
         }
-        let share = wall.laid(change.place, next) / (next - change.place) + flow.max(0.0);
-        let same = |last: &(Point, f64, f64)| (last.1 - share).abs() < 1e-3 && (last.2 - shift).abs() < 1.0;
-        if corner || !sides.last().is_some_and(same) {
-            sides.push((wall.at(change.place), share, shift));
-        }
-        corner = false;
     }
-    let count = sides.len();
+    // A place in the midst of what is alike is not needed; those beside a change say from where on the wall has moved.
+    let needed = |index: usize| {
+        let around =
+            index.checked_sub(2).filter(|_| index + 1 < fine.len()).map(|from| &fine[from..index + 2]);
+        fine[index].corner
+            || !around.is_some_and(|around| around.windows(2).all(|two| two[0].is_like(&two[1])))
+    };
+    let mut stretches: Vec<Stretch> = Vec::with_capacity(fine.len());
+    for (index, stretch) in fine.iter().enumerate() {
+        match stretches.last_mut().filter(|_| !needed(index)) {
+            Some(last) => {
+                last.length += stretch.length;
+                last.clay += stretch.clay;
+            }
+            None => stretches.push(*stretch),
+        }
+    }
+    let count = stretches.len();
     let points: Vec<Point> = (0..count)
         .map(|index| {
             let (before, here, after) =
-                (sides[(index + count - 1) % count], sides[index], sides[(index + 1) % count]);
-            let shift = f64::midpoint(before.2, here.2);
-            if shift == 0.0 { here.0 } else { moved(before.0, here.0, after.0, shift) }
+                (stretches[(index + count - 1) % count], stretches[index], stretches[(index + 1) % count]);
+            let shift = f64::midpoint(before.shift, here.shift);
+            if shift == 0.0 { here.from } else { moved(before.from, here.from, after.from, shift) }
         })
         .collect();
     // A stretch that has become longer or shorter holds the same clay.
-    let flows = (0..count).map(|index| {
-        let (next, after) = (sides[(index + 1) % count].0, points[(index + 1) % count]);
-        let (old, new) = (sides[index].0.distance(next), points[index].distance(after));
-        sides[index].1 * (old / new.max(1.0)).clamp(0.5, 2.0)
+    let flows = stretches.iter().enumerate().map(|(index, stretch)| {
+        let length = points[index].distance(points[(index + 1) % count]);
+        stretch.clay / length.clamp(stretch.length / 2.0, stretch.length * 2.0)
     });
     let flows = flows.collect();
     Strand::measured(wall.feature, points, flows, true).unwrap_or_else(|| wall.clone())

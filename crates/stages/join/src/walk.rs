@@ -78,6 +78,10 @@ fn beside(points: &[Point], distance: f64) -> Vec<Point> {
     shifted.collect()
 }
 
+/// A step over holds its clay on a way that is at most so many times longer than was thought; more would leave a thread that
+/// no nozzle can lay.
+const LONGER: f64 = 4.0;
+
 struct Walker<'a> {
     strands: &'a [Strand],
     tree: &'a Tree,
@@ -140,7 +144,7 @@ impl Walker<'_> {
     /// Steps over to a place. The nozzle may stand in a lane beside where the step begins; then the same clay lies on the way
     /// from there.
     fn over(&mut self, visit: &Visit, from: Point, to: Point, flow: f64) {
-        let longer = (self.here().distance(to) / from.distance(to).max(1.0)).max(0.5);
+        let longer = (self.here().distance(to) / from.distance(to).max(1.0)).clamp(0.5, LONGER);
         let feature = self.strands[visit.strand].feature;
         self.step(Step { to, flow: flow / longer, feature });
     }
