@@ -78,6 +78,29 @@ fn beside(points: &[Point], distance: f64) -> Vec<Point> {
     shifted.collect()
 }
 
+/// A lane keeps no step shorter than this share of a bead's width: half a bead of that length is less clay than can be said.
+const FINENESS: f64 = 16.0;
+
+/// Leaves out the points of a way that are nearer to the one before than a distance in microns, but for the first and the
+/// last.
+fn drop_crumbs(points: &mut Vec<Point>, flows: &mut Vec<f64>, least: f64) {
+    let mut kept: Vec<(Point, f64)> = Vec::with_capacity(flows.len());
+    let Some((first, rest)) = points.split_first() else { return };
+    for (index, (point, flow)) in rest.iter().zip(flows.iter()).enumerate() {
+        let before = kept.last().map_or(*first, |last| last.0);
+        if before.distance(*point) >= least {
+            kept.push((*point, *flow));
+        } else if index + 1 == rest.len() {
+            kept.pop();
+            kept.push((*point, *flow));
+        }
+    }
+    points.truncate(1);
+    points.extend(kept.iter().map(|kept| kept.0));
+    flows.clear();
+    flows.extend(kept.iter().map(|kept| kept.1));
+}
+
 /// A step over holds its clay on a way that is at most so many times longer than was thought; more would leave a thread that
 /// no nozzle can lay.
 const LONGER: f64 = 4.0;
@@ -203,6 +226,7 @@ impl Walker<'_> {
             // The way over to the lane is part of it, and all of it holds the clay that is due.
             points.insert(0, self.here());
             flows.insert(0, flows.first().copied().unwrap_or(0.0));
+            drop_crumbs(&mut points, &mut flows, self.tree.spacing / FINENESS);
             let factor = clay / laid(&points, &flows).max(1.0);
             flows.iter_mut().for_each(|flow| *flow *= factor);
         }
