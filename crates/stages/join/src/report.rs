@@ -1,7 +1,7 @@
 //! What is said about the interruptions that are left.
 
-use crate::Join;
 use crate::sheet::{Plan, Sheet};
+use crate::{Join, Seam};
 
 use skein::{Error, Notes, Point};
 
@@ -108,9 +108,14 @@ impl Report {
             ));
         }
         if far > 0 {
-            parts.push(format!(
-                "{far} lead to layers that begin elsewhere: `join.seam = \"nearest\"` keeps them short"
-            ));
+            let cure = match join.seam {
+                Seam::Nearest if !join.through_layers => {
+                    "`join.through_layers = true` lets clay flow on to most of them"
+                }
+                Seam::Nearest => "the part changes too much there",
+                Seam::Aligned | Seam::Behind => "`join.seam = \"nearest\"` keeps them short",
+            };
+            parts.push(format!("{far} lead to layers that begin elsewhere: {cure}"));
         }
         if islands > 0 {
             parts.push(format!("{islands} lead to other islands: only a part in one piece has none"));
