@@ -57,7 +57,7 @@ stages! {
     on skein inset::Inset: "Lays the outermost wall half a bead inside the outline.";
     on skein fill::Fill: "Adds the inner walls and the infill and puts the threads in order.";
     off skein coil::Coil: "Winds the wall as one thread from the base to the rim.";
-    off skein join::Join: "Makes one thread of everything that is laid on an island.";
+    on skein join::Join: "Makes one thread of everything that is laid on an island.";
     off skein multiply::Multiply: "Prints the part in rows and columns.";
     on skein speed::Speed: "Says how fast every move is made.";
     off skein temperature::Temperature: "Says how hot the nozzle is, for machines that heat.";

@@ -1,6 +1,7 @@
 //! Plane geometry.
 
 pub mod boolean;
+mod boxes;
 pub mod clip;
 mod curves;
 pub mod hatch;
@@ -11,6 +12,7 @@ mod point;
 mod ring;
 mod simplify;
 
+pub use boxes::{Bounds, Boxes, gap2};
 pub use curves::Offset;
 pub use islands::islands;
 pub use middle::{MiddleLine, dab, thin_parts};

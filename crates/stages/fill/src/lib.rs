@@ -56,7 +56,10 @@ pub struct Fill {
     /// The share of the inside that is clay: 0 is empty, 1 solid.
     #[setting(default = 0.2, min = 0.0, max = 1.0)]
     pub density: Ratio,
-    /// How sparse infill is laid. Solid layers always have lines.
+    /// How layers are laid that are solid all over. Bridges and the solid parts of other layers always have lines.
+    #[setting(default = SolidPattern::Line)]
+    pub solid_pattern: SolidPattern,
+    /// How sparse infill is laid. Solid layers have lines or rings, as `solid_pattern` says.
     #[setting(default = Pattern::Line)]
     pub pattern: Pattern,
     /// How far two lines of the rectangular and the hexagonal pattern run into each other where they meet. More binds
@@ -119,6 +122,15 @@ pub enum Pattern {
     /// Circles side by side.
     Circular,
     /// Rings that follow the walls inwards, each joined to the next.
+    Concentric,
+}
+
+/// How layers are laid that are solid all over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Choice)]
+pub enum SolidPattern {
+    /// Parallel lines, which cross those of the layer below: they bind best.
+    Line,
+    /// Walls all the way in, and what is left between them: no open corners where lines would turn.
     Concentric,
 }
 
@@ -230,7 +242,12 @@ impl Fill {
         let surroundings = self.surroundings(sources, index);
         let solid = self.density == Ratio::ONE || surroundings.is_none();
         let mut strands: Vec<Strand> = source.middles.clone();
-        let inside = walls::lay(source, self, walls, solid, &mut strands);
+        let rings = solid && source.bridge.is_none() && self.solid_pattern == SolidPattern::Concentric;
+        let walls = if rings { u32::MAX } else { walls };
+        let mut inside = walls::lay(source, self, walls, solid, &mut strands);
+        if rings {
+            inside.clear();
+        }
         let direction = source.bridge.unwrap_or_else(|| self.direction(index));
         let turn = source.bridge.is_none().then_some(self.turn(index));
         let job =

@@ -3,6 +3,7 @@
 use crate::source::Source;
 use crate::strand::{Island, Strand};
 use crate::{Fill, Start, ThreadSequence};
+use shape::plane::Boxes;
 use skein::{Feature, Point, Ring};
 
 /// Puts every layer in order, each starting from where the one before ended.
@@ -33,18 +34,12 @@ fn layer(islands: Vec<Island>, fill: &Fill, sequence: ThreadSequence, here: &mut
     let mut ordered = Vec::with_capacity(islands.len());
     let (islands, bare): (Vec<Island>, Vec<Island>) =
         islands.into_iter().partition(|island| !island.strands.is_empty());
-    let mut left: Vec<(Island, (Point, Point))> = islands
-        .into_iter()
-        .map(|island| {
-            let bounds = bounds(island.strands.iter().flat_map(|strand| &strand.points));
-            (island, bounds)
-        })
-        .collect();
-    while !left.is_empty() {
-        let nearest =
-            (0..left.len()).min_by_key(|index| distance2_to_box(*here, left[*index].1)).unwrap_or(0);
-        let (island, _) = left.remove(nearest);
-        ordered.push(order_island(island, fill, sequence, here));
+    let bounds = |island: &Island| bounds(island.strands.iter().flat_map(|strand| &strand.points));
+    let mut left = Boxes::new(islands.iter().map(bounds).collect());
+    let mut islands: Vec<Option<Island>> = islands.into_iter().map(Some).collect();
+    while let Some(nearest) = left.nearest((*here, *here)) {
+        left.take(nearest);
+        ordered.extend(islands[nearest].take().map(|island| order_island(island, fill, sequence, here)));
     }
     ordered.extend(bare.into_iter().filter(|island| !island.outlines.is_empty()));
     ordered

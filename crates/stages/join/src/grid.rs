@@ -176,12 +176,12 @@ impl Side {
 }
 
 /// Whether two sides meet.
-fn cross(a: Point, b: Point, c: Point, d: Point) -> bool {
+pub fn cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     let side = |a, b, c| shape::plane::cross(a, b, c).signum();
-    side(a, b, c) * side(a, b, d) <= 0
-        && side(c, d, a) * side(c, d, b) <= 0
-        && a.x.min(b.x) <= c.x.max(d.x)
+    a.x.min(b.x) <= c.x.max(d.x)
         && c.x.min(d.x) <= a.x.max(b.x)
         && a.y.min(b.y) <= c.y.max(d.y)
         && c.y.min(d.y) <= a.y.max(b.y)
+        && side(a, b, c) * side(a, b, d) <= 0
+        && side(c, d, a) * side(c, d, b) <= 0
 }

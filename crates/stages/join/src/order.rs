@@ -1,5 +1,6 @@
 //! In which order the islands of a layer are printed.
 
+use shape::plane::{Bounds, Boxes, gap2};
 use skein::Point;
 
 /// How often all pairs of islands are looked at for a shorter order.
@@ -9,12 +10,12 @@ const WINDOW: usize = 32;
 
 /// The order in which boxes are visited from a place, with short ways: always the nearest one, then stretches of the order
 /// are turned round as long as that makes the ways shorter.
-pub fn order(from: Point, boxes: &[(Point, Point)]) -> Vec<usize> {
-    let mut left: Vec<usize> = (0..boxes.len()).collect();
+pub fn order(from: Point, boxes: &[Bounds]) -> Vec<usize> {
+    let mut left = Boxes::new(boxes.to_vec());
     let mut order = Vec::with_capacity(boxes.len());
     let mut here = (from, from);
-    while let Some(place) = (0..left.len()).min_by_key(|place| gap(here, boxes[left[*place]])) {
-        let next = left.remove(place);
+    while let Some(next) = left.nearest(here) {
+        left.take(next);
         here = boxes[next];
         order.push(next);
     }
@@ -22,7 +23,7 @@ pub fn order(from: Point, boxes: &[(Point, Point)]) -> Vec<usize> {
     order
 }
 
-fn shorten(from: Point, boxes: &[(Point, Point)], order: &mut [usize]) {
+fn shorten(from: Point, boxes: &[Bounds], order: &mut [usize]) {
     let root = |square: i64| (square as f64).sqrt();
     for _ in 0..ROUNDS {
         let mut shorter = false;
@@ -32,8 +33,8 @@ fn shorten(from: Point, boxes: &[(Point, Point)], order: &mut [usize]) {
                 let way = |one: usize, other: usize| {
                     let after = order
                         .get(last + 1)
-                        .map_or(0.0, |after| root(gap(boxes[order[other]], boxes[*after])));
-                    root(gap(before, boxes[order[one]])) + after
+                        .map_or(0.0, |after| root(gap2(boxes[order[other]], boxes[*after])));
+                    root(gap2(before, boxes[order[one]])) + after
                 };
                 if way(last, first) + 1.0 < way(first, last) {
                     order[first..=last].reverse();
@@ -45,15 +46,4 @@ fn shorten(from: Point, boxes: &[(Point, Point)], order: &mut [usize]) {
             break;
         }
     }
-}
-
-/// How far two boxes are apart, squared.
-fn gap(one: (Point, Point), other: (Point, Point)) -> i64 {
-    let along = |low: i32, high: i32, other_low: i32, other_high: i32| {
-        let gap = i64::from(other_low) - i64::from(high);
-        gap.max(i64::from(low) - i64::from(other_high)).max(0)
-    };
-    let x = along(one.0.x, one.1.x, other.0.x, other.1.x);
-    let y = along(one.0.y, one.1.y, other.0.y, other.1.y);
-    x * x + y * y
 }

@@ -1,7 +1,7 @@
 //! What is said about the interruptions that are left.
 
-use crate::Join;
-use crate::sheet::{Path, Sheet};
+use crate::sheet::{Plan, Sheet};
+use crate::{Join, Seam};
 
 use skein::{Error, Notes, Point};
 
@@ -35,11 +35,15 @@ enum Why {
 
 impl Report {
     /// Looks at every place between two threads.
-    pub fn new(sheets: &[Sheet], paths: &[Vec<Vec<Path>>], spacing: f64) -> Self {
+    pub fn new(sheets: &[Sheet], plans: &[Plan], spacing: f64) -> Self {
         let mut stops = Vec::new();
         let mut before: Option<(usize, usize, Point)> = None;
-        for (layer, (_, islands)) in sheets.iter().zip(paths).enumerate() {
-            for (island, path) in islands
+        for (layer, (sheet, plan)) in sheets.iter().zip(plans).enumerate() {
+            if let Some(end) = sheet.kept {
+                before = end.map(|end| (layer, 0, end));
+            }
+            for (island, path) in plan
+                .paths
                 .iter()
                 .enumerate()
                 .flat_map(|(index, paths)| paths.iter().map(move |path| (index, path)))
@@ -104,9 +108,14 @@ impl Report {
             ));
         }
         if far > 0 {
-            parts.push(format!(
-                "{far} lead to layers that begin elsewhere: `join.seam = \"nearest\"` keeps them short"
-            ));
+            let cure = match join.seam {
+                Seam::Nearest if !join.through_layers => {
+                    "`join.through_layers = true` lets clay flow on to most of them"
+                }
+                Seam::Nearest => "the part changes too much there",
+                Seam::Aligned | Seam::Behind => "`join.seam = \"nearest\"` keeps them short",
+            };
+            parts.push(format!("{far} lead to layers that begin elsewhere: {cure}"));
         }
         if islands > 0 {
             parts.push(format!("{islands} lead to other islands: only a part in one piece has none"));

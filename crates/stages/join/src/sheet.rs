@@ -1,6 +1,7 @@
 //! A layer taken apart into its islands, and written again.
 
 use crate::strand::Strand;
+use crate::tree::Weave;
 use skein::{Error, Feature, Layer, Line, Mark, Nozzle, Pen, Point, Point3, Ratio, Ring, Tag};
 
 /// A layer: lines that stay, and islands between them.
@@ -14,6 +15,25 @@ pub struct Sheet {
     pub tail: Vec<Line>,
     /// The height of the nozzle.
     pub z: i32,
+    /// Where clay ends in a layer that stays as it is, since clay climbs in it or goes on to the next; such a layer is all
+    /// head.
+    pub kept: Option<Option<Point>>,
+}
+
+/// How a layer is laid.
+#[derive(Debug, Default)]
+pub struct Plan {
+    /// The islands in their order.
+    pub order: Vec<usize>,
+    /// The threads of each island, in that order.
+    pub paths: Vec<Vec<Path>>,
+}
+
+impl Plan {
+    /// Whether the first thread comes from the layer below.
+    pub fn flows_on(&self) -> bool {
+        self.paths.iter().flatten().next().is_some_and(|first| first.flows_on)
+    }
 }
 
 /// Everything that belongs to an outline.
@@ -66,11 +86,15 @@ impl Path {
 }
 
 impl Sheet {
-    /// Takes a layer apart.
+    /// Takes a layer apart; `entering` is the nozzle in front of it and `leaving` behind it.
     ///
     /// # Errors
     /// When a bead starts nowhere, or something in a bead cannot be joined.
-    pub fn read(layer: Layer, z: i32, entering: &Nozzle) -> Result<Self, Error> {
+    pub fn read(layer: Layer, z: i32, entering: &Nozzle, leaving: &Nozzle) -> Result<Self, Error> {
+        if entering.on || leaving.on || climbs(&layer, z, entering) {
+            let end = leaving.at.map(|at| Point::new(at.x, at.y));
+            return Ok(Self { head: layer.lines, z, kept: Some(end), ..Self::default() });
+        }
         let mut sheet = Self { z, ..Self::default() };
         let mut island: Option<Island> = None;
         let mut loose = Island::default();
@@ -140,16 +164,27 @@ impl Sheet {
         Ok(sheet)
     }
 
-    /// Writes the layer: the islands in their order, each with its paths.
-    pub fn write(self, paths: &[Vec<Path>], entering: Ratio, leaving: Ratio, goes_on: bool) -> Vec<Line> {
-        let nozzle = Nozzle { flow: entering, ..Nozzle::default() };
-        let steps: usize = paths.iter().flatten().map(|path| path.steps.len() + 6).sum();
+    /// What lies beside what on each island; the spacing of the beads is in microns.
+    pub fn weaves(&self, spacing: f64) -> Vec<Weave<'_>> {
+        let islands = self.islands.iter();
+        islands.map(|island| Weave::new(&island.strands, &island.outlines, spacing)).collect()
+    }
+
+    /// Writes the layer. `flows` are the flow in front of it and the one to leave behind it; `goes_on` is whether its last
+    /// thread goes on in the next layer.
+    pub fn write(mut self, plan: &Plan, flows: (Ratio, Ratio), goes_on: bool) -> Vec<Line> {
+        if self.kept.is_some() {
+            return self.head;
+        }
+        let nozzle = Nozzle { flow: flows.0, ..Nozzle::default() };
+        let steps: usize = plan.paths.iter().flatten().map(|path| path.steps.len() + 6).sum();
         let others: usize = self.islands.iter().map(|island| island.lines.len() + 2).sum();
         let mut pen = Pen::new(&nozzle, self.head.len() + self.tail.len() + steps + others);
         self.head.into_iter().for_each(|line| pen.push(line));
-        let count: usize = paths.iter().map(Vec::len).sum();
+        let count: usize = plan.paths.iter().map(Vec::len).sum();
         let mut written = 0;
-        for (island, paths) in self.islands.into_iter().zip(paths) {
+        for (index, paths) in plan.order.iter().zip(&plan.paths) {
+            let island = std::mem::take(&mut self.islands[*index]);
             if island.nested {
                 pen.push(Line::Open(Tag::NestedRing));
             }
@@ -163,8 +198,21 @@ impl Sheet {
             }
         }
         self.tail.into_iter().for_each(|line| pen.push(line));
-        pen.finish(&Nozzle { flow: leaving, ..Nozzle::default() })
+        pen.finish(&Nozzle { flow: flows.1, ..Nozzle::default() })
     }
+}
+
+/// Whether a bead of the layer rises, as in a spiral.
+fn climbs(layer: &Layer, z: i32, entering: &Nozzle) -> bool {
+    let mut on = entering.on;
+    layer.lines.iter().any(|line| {
+        match line {
+            Line::On => on = true,
+            Line::Off => on = false,
+            _ => {}
+        }
+        on && line.as_move().is_some_and(|step| step.to.z != z)
+    })
 }
 
 /// Writes a thread; each change of what the bead is for closes one block and opens the next.

@@ -34,6 +34,19 @@ impl Strand {
         (length > 0.0).then_some(Self { feature, points, flows, starts, closed })
     }
 
+    /// A bead through points, with a flow for each side; a closed one does not repeat its first point. Nothing when it has
+    /// no length.
+    pub fn measured(feature: Feature, points: Vec<Point>, flows: Vec<f64>, closed: bool) -> Option<Self> {
+        let ends = points.iter().skip(1).chain(points.first().filter(|_| closed));
+        let mut length = 0.0;
+        let lengths = points.iter().zip(ends).map(|(from, to)| {
+            length += from.distance(*to);
+            length
+        });
+        let starts: Vec<f64> = std::iter::once(0.0).chain(lengths).collect();
+        (length > 0.0).then_some(Self { feature, points, flows, starts, closed })
+    }
+
     /// Its length in microns.
     pub fn length(&self) -> f64 {
         self.starts.last().copied().unwrap_or(0.0)
@@ -42,6 +55,11 @@ impl Strand {
     /// Its corners.
     pub fn points(&self) -> &[Point] {
         &self.points
+    }
+
+    /// The share of a nominal section on each side.
+    pub fn flows(&self) -> impl Iterator<Item = f64> {
+        self.flows.iter().copied()
     }
 
     /// The sides, each with the length at which it begins.

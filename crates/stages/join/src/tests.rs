@@ -1,6 +1,7 @@
 use crate::Join;
+use crate::absorb::absorb;
 use crate::strand::Strand;
-use crate::tree::Weave;
+use crate::tree::{Start, Weave};
 use crate::walk;
 use proptest::prelude::*;
 use skein::{Feature, Line, Notes, Nozzle, Point, Ratio, Ring, Side, Skein, Span, Stage, spans};
@@ -42,7 +43,7 @@ fn clay(paths: &[crate::sheet::Path]) -> f64 {
 }
 
 fn join(strands: &[Strand], outlines: &[Ring]) -> Vec<crate::sheet::Path> {
-    let trees = Weave::new(strands, outlines, SPACING).trees(Point::new(0, 0));
+    let trees = Weave::new(strands, outlines, SPACING).trees(Start { place: Point::new(0, 0), fixed: true });
     trees.iter().map(|tree| walk::path(strands, tree, 0.0)).collect()
 }
 
@@ -110,6 +111,78 @@ fn no_step_crosses_an_outline() {
     ]);
     assert_eq!(join(&strands, &[slot]).len(), 2);
     assert_eq!(join(&strands, &[]).len(), 1);
+}
+
+#[test]
+fn a_seam_that_may_be_anywhere_lays_nothing_in_halves() {
+    let strands =
+        [square(1500, 58500), open(&[(4500, 40000), (55500, 40000), (55500, 43000), (4500, 43000)])];
+    let outlines = [outline(0, 60000)];
+    let trees =
+        Weave::new(&strands, &outlines, SPACING).trees(Start { place: Point::new(0, 0), fixed: false });
+    let paths: Vec<_> = trees.iter().map(|tree| walk::path(&strands, tree, 0.0)).collect();
+    assert_eq!(paths.len(), 1);
+    assert!(paths[0].steps.iter().all(|step| step.flow > 0.9), "{:?}", paths[0].steps);
+    assert!((clay(&paths) / total(&strands) - 1.0).abs() < 1e-3);
+}
+
+#[test]
+fn infill_far_apart_at_the_wall_halves_the_shorter_way() {
+    // The wall between its ends is shorter than it is.
+    let strands = [
+        square(1500, 88500),
+        open(&[(4500, 85500), (4500, 4500), (85500, 4500), (85500, 85500), (7500, 85500), (7500, 8000)]),
+        open(&[(20000, 4500), (20000, 55500), (32000, 55500), (32000, 4500)]),
+    ];
+    let paths = join(&strands, &[outline(0, 90000)]);
+    assert_eq!(paths.len(), 1);
+    assert!((clay(&paths) / total(&strands) - 1.0).abs() < 2e-2, "{} {}", clay(&paths), total(&strands));
+    let mut from = paths[0].start;
+    let mut halves = 0.0;
+    for step in &paths[0].steps {
+        if step.flow < 0.7 && step.feature == Feature::Infill {
+            halves += from.distance(step.to);
+        }
+        from = step.to;
+    }
+    assert_eq!(halves, 0.0);
+}
+
+#[test]
+fn walls_with_an_empty_space_between_them_are_bridged() {
+    let strands = [square(1500, 88500), square(10500, 79500)];
+    let paths = join(&strands, &[outline(0, 90000)]);
+    assert_eq!(paths.len(), 1);
+    assert!((clay(&paths) / total(&strands) - 1.0).abs() < 1e-3);
+    let far = [square(1500, 88500), square(13000, 77000)];
+    assert_eq!(join(&far, &[outline(0, 90000)]).len(), 2);
+}
+
+fn thin(points: &[(i32, i32)], flow: f64) -> Strand {
+    let points: Vec<Point> = points.iter().map(|(x, y)| Point::new(*x, *y)).collect();
+    let flows = vec![flow; points.len() - 1];
+    Strand::measured(Feature::Middle, points, flows, false).expect("a strand")
+}
+
+#[test]
+fn a_thin_gap_makes_its_walls_wider_and_moves_them() {
+    // Two walls with room for four tenths of a bead between them.
+    let strands = vec![square(1500, 88500), square(5700, 84300), thin(&[(3600, 10000), (3600, 70000)], 0.4)];
+    let before = total(&strands);
+    let absorbed = absorb(strands, SPACING);
+    assert_eq!(absorbed.len(), 2);
+    assert!((total(&absorbed) / before - 1.0).abs() < 1e-3, "{} {before}", total(&absorbed));
+    // Both move towards the gap, by a quarter of what it holds.
+    assert!(absorbed[0].points().iter().any(|point| (point.x - 1800).abs() <= 1), "{:?}", absorbed[0]);
+    assert!(absorbed[1].points().iter().any(|point| (point.x - 5400).abs() <= 1), "{:?}", absorbed[1]);
+}
+
+#[test]
+fn what_is_too_wide_or_alone_is_laid() {
+    let wide = vec![square(1500, 88500), square(7200, 82800), thin(&[(4350, 10000), (4350, 70000)], 0.9)];
+    assert_eq!(absorb(wide.clone(), SPACING), wide);
+    let alone = vec![square(1500, 88500), thin(&[(40000, 10000), (40000, 70000)], 0.4)];
+    assert_eq!(absorb(alone.clone(), SPACING), alone);
 }
 
 /// The skein of a layer of squares inside each other and bars across, as fill would write it.
@@ -209,6 +282,26 @@ fn what_is_no_bead_stays() {
 }
 
 proptest! {
+    #[test]
+    fn taking_up_thin_gaps_keeps_the_clay(
+        flow in 0.05f64..1.0,
+        from in 2000i32..80000,
+        length in 100i32..80000,
+        slant in -2000i32..2000,
+    ) {
+        let gap = (flow * SPACING) as i32;
+        let (inner, middle) = (4500 + gap, 3000 + gap / 2);
+        let strands = vec![
+            square(1500, 98500),
+            square(inner, 100_000 - inner),
+            thin(&[(middle, from), (middle + slant.min(gap / 4), (from + length).min(97000))], flow),
+        ];
+        let before = total(&strands);
+        let absorbed = absorb(strands, SPACING);
+        prop_assert!((total(&absorbed) / before - 1.0).abs() < 2e-3, "{} {}", total(&absorbed), before);
+        prop_assert!(absorbed.iter().flat_map(Strand::flows).all(|flow| flow < 1.5));
+    }
+
     #[test]
     fn clay_and_outlines_are_kept(
         size in 30i32..90,

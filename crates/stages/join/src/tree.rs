@@ -1,59 +1,29 @@
 //! Which strands of an island are joined, and where.
 //!
 //! Strands that lie beside each other become a tree: each is visited from another, at a place where the two are a bead
-//! apart. A thread that goes round the tree lays everything once and never stops. There are two kinds of joint:
+//! apart. A thread that goes round the tree lays everything once and never stops. There are three kinds of joint:
 //!
 //! * A **rung** joins a closed strand to one that runs beside it. Both leave out as much as the two steps over are long,
 //!   so the four corners of a square of beads are only connected the other way, and the clay lies where it lay.
+//! * An **arch** is an open strand with both ends beside the same walk, which goes on through it.
 //! * A **stem** goes to a strand and comes back the same way. What is gone over twice is two half beads side by side; the
 //!   clay of the way is taken from the strand.
 
+use crate::fence::Fence;
 use crate::grid::{Grid, Near, Side};
 use crate::strand::Strand;
+use crate::visit::{Child, Tree, Visit};
 use skein::{Feature, Point, Ring};
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
+use std::ops::Range;
 
-/// How a strand is visited.
-#[derive(Debug)]
-pub struct Visit {
-    /// Which strand.
-    pub strand: usize,
-    /// Where on it the walk begins, in microns.
-    pub entry: f64,
-    /// Whether it is walked in its own direction.
-    pub forward: bool,
-    /// How far it is walked, in microns.
-    pub length: f64,
-    /// Whether it is walked back again.
-    pub returns: bool,
-    /// What is made of its flow.
-    pub share: f64,
-    /// The visits that begin on the walk, from its start to its end.
-    pub children: Vec<Child>,
-}
-
-/// A visit that begins on another.
-#[derive(Debug)]
-pub struct Child {
-    /// How far along the walk it begins.
-    pub leave: f64,
-    /// How far along the walk the thread comes back; nothing when it stays away.
-    pub resume: Option<f64>,
-    /// The flow on the way over.
-    pub flow: f64,
-    /// The visit.
-    pub visit: usize,
-}
-
-/// How the strands of one connected part of an island are visited.
-#[derive(Debug)]
-pub struct Tree {
-    /// The visits; the first is the root's.
-    pub visits: Vec<Visit>,
-    /// How far the root is walked on beyond its end, beside what it laid first.
-    pub again: f64,
-    /// How far apart beads lie, in microns.
-    pub spacing: f64,
+/// Where a tree begins.
+#[derive(Clone, Copy, Debug)]
+pub struct Start {
+    /// The seam.
+    pub place: Point,
+    /// Whether it must be there, even if a part of a wall is then laid in two halves.
+    pub fixed: bool,
 }
 
 /// How far beside each other two strands may lie to be joined, in bead spacings: neighbours lie one apart, a little more
@@ -63,16 +33,21 @@ const BESIDE: f64 = 1.4;
 /// the wall's next neighbour.
 pub const REACH: f64 = 2.0;
 
+/// How far a bridge may reach to what is beside nothing, in bead spacings: over the empty inside of a wall four beads thick.
+const BRIDGE: f64 = 3.5;
+
 /// An island that is being joined.
 pub struct Weave<'a> {
     strands: &'a [Strand],
     sides: Grid,
-    outlines: Grid,
+    outlines: Fence<'a>,
     spacing: f64,
     visited: Vec<bool>,
     /// What each strand's ends are near to, and which ends are near to each strand.
     ends: Vec<Vec<EndContact>>,
     closed_left: usize,
+    /// What was left when a bridge was first looked for.
+    far: Option<Grid>,
 }
 
 /// An end of an open strand beside another strand.
@@ -88,41 +63,52 @@ struct EndContact {
 
 impl<'a> Weave<'a> {
     /// Finds what lies beside what; the spacing of the beads is in microns.
-    pub fn new(strands: &'a [Strand], outlines: &[Ring], spacing: f64) -> Self {
+    pub fn new(strands: &'a [Strand], outlines: &'a [Ring], spacing: f64) -> Self {
         let reach = REACH * spacing;
-        let sides = Grid::new(
-            strands.iter().enumerate().flat_map(|(owner, strand)| {
-                strand.sides().map(move |(start, from, to)| Side { owner: owner as u32, start, from, to })
-            }),
-            reach,
-        );
-        let outlines = Grid::new(
-            outlines.iter().enumerate().flat_map(|(owner, ring)| {
-                ring.segments().map(move |(from, to)| Side { owner: owner as u32, start: 0.0, from, to })
-            }),
-            reach,
-        );
+        // Nothing is looked for on the only strand that is open, and it is the one with the longest sides.
+        let open = strands.iter().filter(|strand| !strand.closed).count();
+        let wanted = strands.iter().enumerate().filter(|(_, strand)| strand.closed || open > 1);
+        let sides = Grid::new(wanted.flat_map(|(owner, strand)| sides(owner, strand)), reach);
+        let outlines = Fence::new(outlines, reach);
         let closed_left = strands.iter().filter(|strand| strand.closed).count();
         let visited = vec![false; strands.len()];
         let ends = vec![Vec::new(); strands.len()];
-        let mut weave = Self { strands, sides, outlines, spacing, visited, ends, closed_left };
+        let mut weave = Self { strands, sides, outlines, spacing, visited, ends, closed_left, far: None };
         weave.find_ends();
         weave
     }
 
     /// Of every end of an open strand the nearest strand, the nearest wall and the nearest wall that is not seen: where
-    /// several open strands meet, the nearest is often another that leads nowhere.
+    /// several open strands meet, the nearest is often another that leads nowhere. And what is beside one end and the other
+    /// as well.
     fn find_ends(&mut self) {
         for (index, strand) in self.strands.iter().enumerate().filter(|(_, strand)| !strand.closed) {
-            for here in [0.0, strand.length()] {
-                let near = [
-                    self.beside_end(index, here, |_| true),
-                    self.beside_end(index, here, |other| other.closed),
-                    self.beside_end(index, here, |other| other.closed && !is_edge(other)),
-                ];
-                for (place, found) in near.iter().enumerate() {
-                    let (Some(found), false) = (found, near[..place].contains(found)) else { continue };
-                    let (other, there) = (found.owner as usize, found.along);
+            let places = [0.0, strand.length()];
+            let mut beside = places.map(|here| {
+                let mut found: Vec<Near> = Vec::with_capacity(4);
+                let mut add = |near: Option<Near>| found.extend(near.filter(|near| !found.contains(near)));
+                add(self.beside_end(index, here, |_| true));
+                add(self.beside_end(index, here, |other| self.strands[other].closed));
+                add(self.beside_end(index, here, |other| {
+                    self.strands[other].closed && !is_edge(&self.strands[other])
+                }));
+                found.retain(|near| self.is_inside(index, here, near));
+                found
+            });
+            for (end, here) in places.iter().enumerate() {
+                for other in beside[1 - end].clone() {
+                    let is_new = beside[end].iter().all(|near| near.owner != other.owner);
+                    let near = is_new
+                        .then(|| self.beside_end(index, *here, |owner| owner == other.owner as usize))
+                        .flatten();
+                    beside[end].extend(near.filter(|near| {
+                        near.distance <= BESIDE * self.spacing && self.is_inside(index, *here, near)
+                    }));
+                }
+            }
+            for (here, found) in places.into_iter().zip(beside) {
+                for near in found {
+                    let (other, there) = (near.owner as usize, near.along);
                     self.ends[index].push(EndContact { here, other, there });
                     self.ends[other].push(EndContact { here: there, other: index, there: here });
                 }
@@ -130,25 +116,31 @@ impl<'a> Weave<'a> {
         }
     }
 
-    /// What an end of an open strand is nearest to, if the way there is inside.
-    fn beside_end(&self, index: usize, here: f64, wanted: impl Fn(&Strand) -> bool) -> Option<Near> {
-        let at = self.strands[index].at(here);
-        let wanted = |other: u32| other as usize != index && wanted(&self.strands[other as usize]);
-        let near = self.sides.nearest(at, wanted)?;
-        let there = self.strands[near.owner as usize].at(near.along);
-        (!self.outlines.is_crossed(at, there)).then_some(near)
+    /// What an end of an open strand is nearest to.
+    fn beside_end(&self, index: usize, here: f64, wanted: impl Fn(usize) -> bool) -> Option<Near> {
+        let wanted = |other: u32| other as usize != index && wanted(other as usize);
+        self.sides.nearest(self.strands[index].at(here), wanted)
     }
 
-    /// The trees of the island: the first begins near a place, each further one near where the tree before began.
-    pub fn trees(mut self, seam: Point) -> Vec<Tree> {
-        let mut trees = Vec::new();
-        while let Some(tree) = self.tree(seam) {
+    /// Whether the way from an end of a strand to what is near it crosses no outline.
+    fn is_inside(&self, index: usize, here: f64, near: &Near) -> bool {
+        let there = self.strands[near.owner as usize].at(near.along);
+        !self.outlines.is_crossed(self.strands[index].at(here), there)
+    }
+
+    /// The trees of the island: the first begins at the seam, each further one near it.
+    pub fn trees(mut self, seam: Start) -> Vec<Tree> {
+        let mut trees: Vec<Tree> = Vec::new();
+        loop {
+            let Some(tree) = self.tree(Start { fixed: seam.fixed && trees.is_empty(), ..seam }) else {
+                return trees;
+            };
             trees.push(tree);
         }
-        trees
     }
 
-    fn tree(&mut self, seam: Point) -> Option<Tree> {
+    fn tree(&mut self, start: Start) -> Option<Tree> {
+        let seam = start.place;
         let longest = |one: &usize, other: &usize| {
             let length = |index: usize| self.strands[index].length();
             length(*one).total_cmp(&length(*other)).then(other.cmp(one))
@@ -159,7 +151,7 @@ impl<'a> Weave<'a> {
         let on_wall = |index: &usize| self.ends[*index].iter().any(|end| self.is_free_wall(end.other));
         let tail = open().filter(on_wall).max_by(longest);
         let root = match tail {
-            Some(tail) => return Some(self.with_tail(tail, seam)),
+            Some(tail) => return Some(self.with_tail(tail, start)),
             None => match self.nearest_closed(seam) {
                 Some(wall) => {
                     let entry = self.nearest_on(wall, seam);
@@ -180,21 +172,23 @@ impl<'a> Weave<'a> {
     }
 
     /// A tree that begins on a wall and ends with an open strand. From its seam the wall is walked all the way round, and
-    /// on to where the open strand begins.
-    fn with_tail(&mut self, tail: usize, seam: Point) -> Tree {
-        // Not on the wall that is seen, if there is another; then with the shortest way on it.
-        let mut best: Option<(bool, f64, EndContact, f64, bool)> = None;
+    /// on to where the open strand begins; where the seam may be anywhere it is there.
+    fn with_tail(&mut self, tail: usize, start: Start) -> Tree {
+        let seam = start.place;
+        // Not on the wall that is seen, if there is another; then with the shortest way on it, or to it.
+        let mut best: Option<(bool, f64, EndContact, f64, f64, bool)> = None;
         for end in self.ends[tail].iter().filter(|end| self.is_free_wall(end.other)) {
-            let entry = self.nearest_on(end.other, seam);
+            let entry = if start.fixed { self.nearest_on(end.other, seam) } else { end.there };
             let ahead = self.strands[end.other].wrapped(end.there - entry);
             let behind = self.strands[end.other].length() - ahead;
             let (again, forward) = if ahead <= behind { (ahead, true) } else { (behind, false) };
+            let way = if start.fixed { again } else { seam.distance(self.strands[end.other].at(end.there)) };
             let seen = is_edge(&self.strands[end.other]);
-            if best.is_none_or(|(edge, least, ..)| (seen, again) < (edge, least)) {
-                best = Some((seen, again, *end, entry, forward));
+            if best.is_none_or(|(edge, least, ..)| (seen, way) < (edge, least)) {
+                best = Some((seen, way, *end, entry, again, forward));
             }
         }
-        let Some((_, again, end, entry, forward)) = best else {
+        let Some((_, _, end, entry, again, forward)) = best else {
             return Tree { visits: Vec::new(), again: 0.0, spacing: self.spacing };
         };
         let root = self.root(end.other, entry, forward);
@@ -214,7 +208,16 @@ impl<'a> Weave<'a> {
     fn root(&mut self, strand: usize, entry: f64, forward: bool) -> Visit {
         self.take(strand);
         let length = self.strands[strand].length();
-        Visit { strand, entry, forward, length, returns: false, share: 1.0, children: Vec::new() }
+        Visit {
+            strand,
+            entry,
+            forward,
+            length,
+            returns: false,
+            share: 1.0,
+            children: Vec::new(),
+            halves: Vec::new(),
+        }
     }
 
     fn take(&mut self, strand: usize) {
@@ -242,11 +245,59 @@ impl<'a> Weave<'a> {
         near.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(0.0, |(_, along)| along)
     }
 
-    /// Adds everything that can be reached, strand by strand.
+    /// Adds everything that can be reached, strand by strand, and then what a bridge leads to.
     fn grow(&mut self, tree: &mut Tree, mut queue: VecDeque<usize>, seam: Point) {
-        while let Some(visit) = queue.pop_front() {
-            self.add_walls(tree, visit, seam, &mut queue);
-            self.add_ends(tree, visit, &mut queue);
+        let mut bridged = 0;
+        loop {
+            while let Some(visit) = queue.pop_front() {
+                self.add_walls(tree, visit, seam, &mut queue);
+                self.add_ends(tree, visit, &mut queue);
+            }
+            if self.visited.iter().all(|visited| *visited) || bridged == tree.visits.len() {
+                return;
+            }
+            let parents = bridged..tree.visits.len();
+            bridged = parents.end;
+            self.bridge(tree, parents, &mut queue);
+        }
+    }
+
+    /// Leads from strands to all that lie within a bridge of them, each by its shortest way.
+    fn bridge(&mut self, tree: &mut Tree, parents: Range<usize>, queue: &mut VecDeque<usize>) {
+        let reach = BRIDGE * self.spacing;
+        let (strands, visited) = (self.strands, &self.visited);
+        let far = self.far.get_or_insert_with(|| {
+            let left = strands.iter().enumerate().filter(|(index, _)| !visited[*index]);
+            Grid::new(left.flat_map(|(owner, strand)| sides(owner, strand)), reach)
+        });
+        let mut shortest: BTreeMap<u32, (usize, f64, Near)> = BTreeMap::new();
+        for parent in parents {
+            let visit = &tree.visits[parent];
+            let steps = (visit.length / self.spacing).ceil().max(1.0);
+            for step in 0..=steps as usize {
+                let leave = visit.free_near(visit.length * step as f64 / steps);
+                let at = strands[visit.strand].at(visit.on_strand(leave));
+                let Some(near) = far.nearest(at, |other| !visited[other as usize]) else { continue };
+                let place = strands[near.owner as usize].at(near.along);
+                let nearer = shortest.get(&near.owner).is_none_or(|best| near.distance < best.2.distance);
+                if nearer && !self.outlines.is_crossed(at, place) {
+                    shortest.insert(near.owner, (parent, leave, near));
+                }
+            }
+        }
+        for (owner, (parent, leave, near)) in shortest {
+            let strand = &strands[owner as usize];
+            // An open strand is entered at one of its ends.
+            let whole = strand.length();
+            let entry = match strand.closed {
+                true => near.along,
+                false if near.along < whole / 2.0 => 0.0,
+                false => whole,
+            };
+            let (from, to) = (self.place(&tree.visits[parent], leave), strand.at(entry));
+            if from.distance(to) <= reach && !self.outlines.is_crossed(from, to) {
+                self.stem(tree, parent, leave, owner as usize, entry, queue);
+            }
         }
     }
 
@@ -254,7 +305,7 @@ impl<'a> Weave<'a> {
     fn add_ends(&mut self, tree: &mut Tree, parent: usize, queue: &mut VecDeque<usize>) {
         let contacts = self.ends[tree.visits[parent].strand].clone();
         for contact in contacts {
-            if self.visited[contact.other] {
+            if self.visited[contact.other] || self.arch(tree, parent, contact.other, queue) {
                 continue;
             }
             let visit = &tree.visits[parent];
@@ -264,6 +315,52 @@ impl<'a> Weave<'a> {
                 self.stem(tree, parent, leave, contact.other, contact.there, queue);
             }
         }
+    }
+
+    /// Takes an open strand in on the way, when both of its ends are beside the walk. Where they are a bead or two apart,
+    /// the walk between them is left out; where they are farther, that stretch is laid in two halves, if it is shorter than
+    /// the strand.
+    fn arch(&mut self, tree: &mut Tree, parent: usize, strand: usize, queue: &mut VecDeque<usize>) -> bool {
+        let visit = &tree.visits[parent];
+        let whole = self.strands[strand].length();
+        let contact = |there: f64| {
+            let ends = self.ends[strand].iter();
+            ends.filter(|end| end.other == visit.strand && end.here == there)
+                .map(|end| self.along_walk(visit, end.there))
+                .next()
+        };
+        let (Some(start), Some(end)) = (contact(0.0), contact(whole)) else { return false };
+        let (low, high) = (start.min(end), start.max(end));
+        let again = if parent == 0 { tree.again } else { 0.0 };
+        if self.strands[strand].closed || visit.returns || low < again || !visit.is_free(low, high) {
+            return false;
+        }
+        let short = high - low <= ARCH * self.spacing;
+        if !short && high - low >= whole {
+            return false;
+        }
+        let (leave, resume) = if short { (low, high) } else { (high, low) };
+        let entry = if leave == start { 0.0 } else { whole };
+        let ways = [(leave, entry), (resume, whole - entry)]
+            .map(|(on_walk, on_strand)| (self.place(visit, on_walk), self.strands[strand].at(on_strand)));
+        if ways.iter().any(|(from, to)| self.outlines.is_crossed(*from, *to)) {
+            return false;
+        }
+        // The ways over take their clay from what is left out and from the strand.
+        let left_out = if short { self.laid(visit, low, high) * visit.share } else { 0.0 };
+        let over: f64 = ways.iter().map(|(from, to)| from.distance(*to)).sum();
+        let (clay, mean) = (self.strands[strand].laid(0.0, whole), self.strands[strand].mean_flow());
+        let share = (clay + left_out) / (clay + over * mean).max(1.0);
+        if (share - 1.0).abs() > MOST {
+            return false;
+        }
+        let mut visit = self.root(strand, entry, entry == 0.0);
+        visit.share = share;
+        let index = tree.visits.len();
+        tree.visits.push(visit);
+        tree.visits[parent].adopt(Child { leave, resume: Some(resume), flow: mean * share, visit: index });
+        queue.push_back(index);
+        true
     }
 
     /// Goes to a strand and comes back.
@@ -409,56 +506,14 @@ impl<'a> Weave<'a> {
 const EVEN: f64 = 0.15;
 /// The same where no place is better.
 const UNEVEN: f64 = 0.5;
+/// How far apart on a walk the ends of a strand may be for the walk between them to be left out, in bead spacings.
+const ARCH: f64 = 1.5;
 /// The flow of a step over is within so much of a bead's.
 const MOST: f64 = 0.6;
 
-impl Visit {
-    /// The place on the strand of a place along the walk, perhaps rounds away.
-    pub fn on_strand(&self, along: f64) -> f64 {
-        if self.forward { self.entry + along } else { self.entry - along }
-    }
-
-    /// The part of the strand that is walked between two places, from its lower end to its upper.
-    pub fn range(&self, from: f64, to: f64) -> (f64, f64) {
-        let (one, other) = (self.on_strand(from), self.on_strand(to));
-        (one.min(other), one.max(other))
-    }
-
-    /// Whether nothing else begins or is left out on a part of the walk.
-    fn is_free(&self, from: f64, to: f64) -> bool {
-        let after = self.children.partition_point(|child| child.leave < to);
-        let before = after.checked_sub(1).map(|index| &self.children[index]);
-        to <= self.length && before.is_none_or(|child| child.end() <= from)
-    }
-
-    /// The place nearest to a place along the walk where the walk really goes.
-    fn free_near(&self, along: f64) -> f64 {
-        let along = along.min(self.length);
-        let after = self.children.partition_point(|child| child.leave < along);
-        match after.checked_sub(1).map(|index| &self.children[index]) {
-            Some(child) if child.end() > along => {
-                if along - child.leave <= child.end() - along {
-                    child.leave
-                } else {
-                    child.end()
-                }
-            }
-            _ => along,
-        }
-    }
-
-    /// Puts a child behind those that begin earlier.
-    fn adopt(&mut self, child: Child) {
-        let place = self.children.partition_point(|other| other.leave <= child.leave);
-        self.children.insert(place, child);
-    }
-}
-
-impl Child {
-    /// Where on the walk it is over.
-    fn end(&self) -> f64 {
-        self.resume.unwrap_or(self.leave)
-    }
+/// The sides of a strand.
+fn sides(owner: usize, strand: &Strand) -> impl Iterator<Item = Side> {
+    strand.sides().map(move |(start, from, to)| Side { owner: owner as u32, start, from, to })
 }
 
 /// Whether a strand is seen from outside.

@@ -2,7 +2,7 @@
 
 use crate::sheet::{Path, Step};
 use crate::strand::Strand;
-use crate::tree::{Child, Tree, Visit};
+use crate::visit::{Child, Tree, Visit};
 use skein::Point;
 
 /// The thread that goes round a tree. The last of a closed root, as long as `rise` in microns, is its closing.
@@ -78,6 +78,33 @@ fn beside(points: &[Point], distance: f64) -> Vec<Point> {
     shifted.collect()
 }
 
+/// A lane keeps no step shorter than this share of a bead's width: half a bead of that length is less clay than can be said.
+const FINENESS: f64 = 16.0;
+
+/// Leaves out the points of a way that are nearer to the one before than a distance in microns, but for the first and the
+/// last.
+fn drop_crumbs(points: &mut Vec<Point>, flows: &mut Vec<f64>, least: f64) {
+    let mut kept: Vec<(Point, f64)> = Vec::with_capacity(flows.len());
+    let Some((first, rest)) = points.split_first() else { return };
+    for (index, (point, flow)) in rest.iter().zip(flows.iter()).enumerate() {
+        let before = kept.last().map_or(*first, |last| last.0);
+        if before.distance(*point) >= least {
+            kept.push((*point, *flow));
+        } else if index + 1 == rest.len() {
+            kept.pop();
+            kept.push((*point, *flow));
+        }
+    }
+    points.truncate(1);
+    points.extend(kept.iter().map(|kept| kept.0));
+    flows.clear();
+    flows.extend(kept.iter().map(|kept| kept.1));
+}
+
+/// A step over holds its clay on a way that is at most so many times longer than was thought; more would leave a thread that
+/// no nozzle can lay.
+const LONGER: f64 = 4.0;
+
 struct Walker<'a> {
     strands: &'a [Strand],
     tree: &'a Tree,
@@ -92,6 +119,8 @@ struct Place {
     next: usize,
     /// How far the walk has come.
     along: f64,
+    /// How far along what is laid now is a second half.
+    second: f64,
     /// Where to go, and with what flow, when it is over.
     back: Option<(Point, f64)>,
 }
@@ -99,20 +128,21 @@ struct Place {
 impl Walker<'_> {
     /// A tree may be as deep as there are strands, so what is under way is kept in a list.
     fn run(&mut self) {
-        let mut under_way = vec![Place { visit: 0, next: 0, along: 0.0, back: None }];
+        let mut under_way = vec![Place { visit: 0, next: 0, along: 0.0, second: 0.0, back: None }];
         while let Some(place) = under_way.last_mut() {
             let (tree, index) = (self.tree, place.visit);
             let visit = &tree.visits[index];
             let again = if index == 0 { tree.again } else { 0.0 };
             if let Some(child) = visit.children.get(place.next) {
                 let from = std::mem::replace(&mut place.along, child.resume.unwrap_or(f64::INFINITY));
+                let second = std::mem::replace(&mut place.second, child.leave);
                 place.next += 1;
-                self.lay(visit, from, child.leave, again);
+                self.lay(visit, from, child.leave, again, second);
                 under_way.push(self.enter(visit, child));
                 continue;
             }
             let back = place.back;
-            self.lay(visit, place.along, visit.length + again, again);
+            self.lay(visit, place.along, visit.length + again, again, place.second);
             if visit.returns {
                 self.lay_back(visit);
             }
@@ -131,13 +161,13 @@ impl Walker<'_> {
         self.over(visit, from, self.strands[visit.strand].at(visit.entry), child.flow);
         let back =
             child.resume.map(|resume| (self.strands[parent.strand].at(parent.on_strand(resume)), child.flow));
-        Place { visit: child.visit, next: 0, along: 0.0, back }
+        Place { visit: child.visit, next: 0, along: 0.0, second: 0.0, back }
     }
 
     /// Steps over to a place. The nozzle may stand in a lane beside where the step begins; then the same clay lies on the way
     /// from there.
     fn over(&mut self, visit: &Visit, from: Point, to: Point, flow: f64) {
-        let longer = (self.here().distance(to) / from.distance(to).max(1.0)).max(0.5);
+        let longer = (self.here().distance(to) / from.distance(to).max(1.0)).clamp(0.5, LONGER);
         let feature = self.strands[visit.strand].feature;
         self.step(Step { to, flow: flow / longer, feature });
     }
@@ -146,15 +176,25 @@ impl Walker<'_> {
         self.steps.last().map_or(self.start, |last| last.to)
     }
 
-    /// Lays a part of a walk. What is walked twice, up to `again` and beyond the end, has half the flow each time.
-    fn lay(&mut self, visit: &Visit, from: f64, to: f64, again: f64) {
+    /// Lays a part of a walk. What is walked twice has half the flow each time: up to `again` and beyond the end, and the
+    /// halves of the walk, of which those up to `second` are laid for the second time.
+    fn lay(&mut self, visit: &Visit, from: f64, to: f64, again: f64, second: f64) {
         let once = if visit.returns { Lane::Right } else { Lane::Middle };
         let share = if visit.returns { visit.share } else { visit.share / 2.0 };
-        for (from, to, share, lane) in [
-            (from, to.min(again), share, Lane::Right),
-            (from.max(again), to.min(visit.length), visit.share, once),
-            (from.max(visit.length), to, share, Lane::Left),
-        ] {
+        let mut stretches = vec![(from, to.min(again), share, Lane::Right)];
+        let (mut here, end) = (from.max(again), to.min(visit.length));
+        let first = visit.halves.partition_point(|(_, end)| *end <= here);
+        for (low, high) in visit.halves[first..].iter().take_while(|(low, _)| *low < end) {
+            stretches.push((here, *low, visit.share, once));
+            let (from, to) = (here.max(*low), end.min(*high));
+            let turn = to.min(second).max(from);
+            stretches.push((from, turn, share, Lane::Left));
+            stretches.push((turn, to, share, Lane::Right));
+            here = to;
+        }
+        stretches.push((here, end, visit.share, once));
+        stretches.push((from.max(visit.length), to, share, Lane::Left));
+        for (from, to, share, lane) in stretches {
             if from < to {
                 self.stretch(visit, from, to, share, visit.forward, lane);
             }
@@ -186,6 +226,7 @@ impl Walker<'_> {
             // The way over to the lane is part of it, and all of it holds the clay that is due.
             points.insert(0, self.here());
             flows.insert(0, flows.first().copied().unwrap_or(0.0));
+            drop_crumbs(&mut points, &mut flows, self.tree.spacing / FINENESS);
             let factor = clay / laid(&points, &flows).max(1.0);
             flows.iter_mut().for_each(|flow| *flow *= factor);
         }
