@@ -192,8 +192,8 @@ impl Pen {
     }
 
     fn chords(&self, wanted: f64) -> Result<u32, Trouble> {
-        let wanted = wanted.ceil().max(1.0);
-        // So is what is no number.
-        if !(wanted <= MOST_CHORDS) { Err(Trouble::TooFar) } else { Ok(wanted as u32) }
+        let wanted = if wanted < 1.0 { 1.0 } else { wanted.ceil() };
+        // What is no number lies in no range.
+        if (1.0..=MOST_CHORDS).contains(&wanted) { Ok(wanted as u32) } else { Err(Trouble::TooFar) }
     }
 }

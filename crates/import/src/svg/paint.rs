@@ -18,7 +18,7 @@ pub(super) fn filled(ways: &[Way], by_even_odd: bool, frame: &Frame) -> Result<V
 /// The region that lines of a width cover.
 pub(super) fn stroked(ways: &[Way], width: f64, frame: &Frame) -> Result<Vec<Ring>, Trouble> {
     let half = width * frame.mean_growth() / 2.0;
-    if !(half <= f64::from(Micron::LIMIT) / 4.0) {
+    if half.is_nan() || half > f64::from(Micron::LIMIT) / 4.0 {
         return Err(Trouble::TooFar);
     }
     let mut bands = Vec::new();

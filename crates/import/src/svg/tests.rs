@@ -230,7 +230,7 @@ fn lines_without_a_fill_are_as_wide_as_their_stroke() {
         (
             "<style>.a{fill:none} /* b */ path , #p { stroke:red; stroke-width:1mm }</style>\
           <path class='c a' d='M10 10h10'/>",
-            37.79..37.8,
+            37.79..37.81,
         ),
     ] {
         let found = area(shape);

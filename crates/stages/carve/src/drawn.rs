@@ -5,6 +5,7 @@ use crate::{Carve, NOTHING_HERE, Rotation, Surface, loops, plate, slid};
 use rayon::prelude::*;
 use shape::{Bounds, Point, Point3, Ring};
 use skein::{Error, Machine, Micron, Notes, RotatedLoopLayer, Slices};
+use std::ops::RangeInclusive;
 
 impl Carve {
     /// Puts drawn layers on the bed.
@@ -17,13 +18,17 @@ impl Carve {
     pub fn lay(&self, drawing: Slices, machine: &Machine, notes: &mut Notes) -> Result<Slices, Error> {
         let said = drawing.facts.layer_height.unwrap_or(self.layer_height);
         let (slabs, usual) = slabs(&drawing.layers, said)?;
+        let width = drawing.facts.bead_width.unwrap_or(self.bead_width);
+        if !WIDTHS.contains(&width) {
+            let (low, high) = (WIDTHS.start(), WIDTHS.end());
+            return Err(Error::new(format!(
+                "the beads of the drawing are {width} mm wide, not {low} to {high} mm"
+            ))
+            .hint("correct its edgeWidth, or take that out: then carve.bead_width is the width"));
+        }
         let first = slabs.first().map_or(usual, |slab| slab.height);
-        let carve = Self {
-            layer_height: usual,
-            first_layer_height: first,
-            bead_width: drawing.facts.bead_width.unwrap_or(self.bead_width),
-            ..self.clone()
-        };
+        let carve =
+            Self { layer_height: usual, first_layer_height: first, bead_width: width, ..self.clone() };
         self.say_differences(&carve, notes);
         carve.check_bead(machine, notes)?;
         carve.laid(drawing.layers, slabs, machine, notes)
@@ -129,7 +134,7 @@ impl Meaning {
 /// The layers of drawn heights from the bottom up, and the height that most of them have.
 ///
 /// # Errors
-/// When a layer has no height, or heights lie more than a kilometre apart.
+/// When a layer is lower or higher than any may be.
 fn slabs(layers: &[RotatedLoopLayer], said: Micron) -> Result<(Vec<Slab>, Micron), Error> {
     let heights: Vec<i64> = layers.iter().map(|layer| i64::from(layer.z.0)).collect();
     let gaps: Vec<i64> = heights.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -169,17 +174,18 @@ fn slabs(layers: &[RotatedLoopLayer], said: Micron) -> Result<(Vec<Slab>, Micron
             Meaning::Bottom => height + high / 2,
         };
         let micron =
-            |value: i64| i32::try_from(value).ok().map(Micron).filter(|value| value.0.abs() < Micron::LIMIT);
+            |value: i64| i32::try_from(value).ok().map(Micron).filter(|value| value.0.abs() < HIGHEST);
         let slab = micron(middle).zip(micron(high)).map(|(middle, height)| Slab { middle, height });
         slabs.push(slab.ok_or_else(|| {
-            Error::layer(index, "the layer is more than a kilometre high")
+            Error::layer(index, "the layer lies more than 250 m high")
                 .hint("check the heights of the drawing")
         })?);
     }
-    if let Some(index) = slabs.iter().position(|slab| slab.height.0 < LOWEST) {
+    if let Some(index) = slabs.iter().position(|slab| !HEIGHTS.contains(&slab.height)) {
         let height = slabs[index].height;
-        return Err(Error::layer(index, format!("the layer is {height} mm high, less than 0.05 mm"))
-            .hint("check the heights of the drawing: they are millimetres"));
+        let (low, high) = (HEIGHTS.start(), HEIGHTS.end());
+        return Err(Error::layer(index, format!("the layer is {height} mm high, not {low} to {high} mm"))
+            .hint("check the heights of the drawing: they are millimetres, and no layer may be missing"));
     }
     let usual = i32::try_from(usual).map_or(said, Micron);
     Ok((slabs, usual))
@@ -187,8 +193,11 @@ fn slabs(layers: &[RotatedLoopLayer], said: Micron) -> Result<(Vec<Slab>, Micron
 
 /// How far heights are from where they should be because they were rounded, in microns.
 const ROUNDING: i64 = 10;
-/// The lowest layer that the setting allows, in microns.
-const LOWEST: i32 = 50;
+/// What the settings allow, `carve.layer_height` and `carve.bead_width`.
+const HEIGHTS: RangeInclusive<Micron> = Micron(50)..=Micron(100_000);
+const WIDTHS: RangeInclusive<Micron> = Micron(100)..=Micron(200_000);
+/// Higher than any machine, and so low that the distance of two heights is one.
+const HIGHEST: i32 = Micron::LIMIT / 4;
 
 /// The usual height where one is that but for rounding.
 fn snapped(height: i64, usual: i64) -> i64 {
@@ -237,6 +246,9 @@ mod tests {
         let layer = |z| RotatedLoopLayer { z: Micron(z), ..Default::default() };
         let error =
             slabs(&[layer(0), layer(1000), layer(1001), layer(2001)], Micron(1000)).expect_err("flat");
-        assert!(error.message.contains("0.05 mm"), "{error}");
+        assert!(error.message.contains("0.001 mm high, not 0.05 to 100.0 mm"), "{error}");
+        // Far apart as they are, nothing overflows.
+        let far = [layer(-900_000_000), layer(0), layer(900_000_000)];
+        assert!(slabs(&far, Micron(1000)).expect_err("far").message.contains("250 m"));
     }
 }
