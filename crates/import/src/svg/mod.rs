@@ -10,6 +10,7 @@ mod paint;
 mod path;
 mod stroke;
 mod style;
+mod tangle;
 #[cfg(test)]
 mod tests;
 mod walk;
@@ -58,6 +59,12 @@ pub(crate) fn read(bytes: &[u8], unit: FileUnit) -> Result<Drawing, ImportError>
         }
         same
     });
+    let is_tangled =
+        |layer: &walk::Layer| tangle::is_tangled(layer.shapes.iter().flat_map(|shape| &shape.rings));
+    if layers.par_iter().any(is_tangled) {
+        let message = "the shapes of a layer cross each other millions of times";
+        return Err(ImportError::new(ErrorKind::TooLarge, Place::File, message, TANGLED));
+    }
     let untidy: usize = layers.par_iter().map(|layer| usize::from(nest::too_many(&layer.shapes))).sum();
     let layers: Vec<RotatedLoopLayer> = layers
         .into_par_iter()
@@ -100,6 +107,9 @@ fn no_shapes() -> ImportError {
     let hint = "shapes are printed where they are filled, lines where they have a stroke; text must be made into paths";
     ImportError::new(ErrorKind::NoFacets, Place::File, message, hint)
 }
+
+/// What helps when outlines cross too often.
+const TANGLED: &str = "unite the shapes in the program that drew them";
 
 /// A drawing that is refused at an element.
 fn refused(node: Node<'_, '_>, kind: ErrorKind, message: impl Into<String>, hint: &str) -> ImportError {

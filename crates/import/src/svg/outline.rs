@@ -18,6 +18,8 @@ pub(super) enum Trouble {
     TooFar,
     /// Its curves have more points than a drawing may have.
     TooMany,
+    /// It crosses itself more often than an outline may.
+    Tangled,
 }
 
 /// Draws outlines whose chords keep within a tolerance of its curves.

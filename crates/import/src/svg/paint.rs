@@ -3,6 +3,7 @@
 use super::frame::Frame;
 use super::outline::{Trouble, Way};
 use super::stroke;
+use super::tangle::is_tangled;
 use crate::number::nearest;
 use shape::plane::boolean::{even_odd, nonzero, positive};
 use shape::{Point, Ring};
@@ -12,6 +13,9 @@ use skein::Micron;
 pub(super) fn filled(ways: &[Way], by_even_odd: bool, frame: &Frame) -> Result<Vec<Ring>, Trouble> {
     let rings: Vec<Ring> = ways.iter().map(|way| placed(way, frame).map(Ring)).collect::<Result<_, _>>()?;
     let rings: Vec<Ring> = rings.into_iter().filter(|ring| ring.0.len() > 2).collect();
+    if is_tangled(rings.iter()) {
+        return Err(Trouble::Tangled);
+    }
     Ok(if by_even_odd { even_odd(&rings) } else { nonzero(&rings) })
 }
 
@@ -27,11 +31,13 @@ pub(super) fn stroked(ways: &[Way], width: f64, frame: &Frame) -> Result<Vec<Rin
     }
     let is_near =
         |point: &Point| point.x.unsigned_abs().max(point.y.unsigned_abs()) <= Micron::LIMIT.unsigned_abs();
-    if bands.iter().flat_map(|ring| &ring.0).all(is_near) {
-        Ok(positive(&bands))
-    } else {
-        Err(Trouble::TooFar)
+    if !bands.iter().flat_map(|ring| &ring.0).all(is_near) {
+        return Err(Trouble::TooFar);
     }
+    if is_tangled(bands.iter()) {
+        return Err(Trouble::Tangled);
+    }
+    Ok(positive(&bands))
 }
 
 fn placed(way: &Way, frame: &Frame) -> Result<Vec<Point>, Trouble> {

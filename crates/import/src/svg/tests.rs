@@ -305,6 +305,20 @@ fn what_is_refused() {
     );
 }
 
+/// Every crossing becomes a corner, and a thousand chords cross a quarter of a million times.
+#[test]
+fn what_crosses_itself_too_often_is_refused() {
+    let star = |corners: i64| {
+        let corner = |n: i64| format!("{},{} ", n * 7919 % 1009, n * 104_729 % 1013);
+        let points: String = (0..corners).map(corner).collect();
+        format!("<svg width='9mm'><g z='1'><polygon points='{points}' fill-rule='evenodd'/></g></svg>")
+    };
+    assert!(drawing(&star(300)).is_ok());
+    assert_eq!(refused(&star(20_000)).kind, ErrorKind::TooLarge);
+    let round = "<svg width='9mm'><g z='1'><circle r='100000'/><circle r='90000'/></g></svg>";
+    assert!(drawing(round).expect("a ring").slices.layers[0].loops[0].0.len() > 4000);
+}
+
 /// Each doubles the one before it: a kilobyte asks for a billion squares.
 #[test]
 fn copies_of_copies_end() {

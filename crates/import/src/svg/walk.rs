@@ -5,7 +5,7 @@ use super::nest::Shape;
 use super::outline::{Pen, Trouble};
 use super::page::Page;
 use super::style::{Named, Sheet, Style};
-use super::{damaged, height, paint, path, refused, too_far};
+use super::{TANGLED, damaged, height, paint, path, refused, too_far};
 use crate::error::{ErrorKind, ImportError};
 use roxmltree::{Document, Node};
 use skein::Micron;
@@ -298,6 +298,10 @@ impl Trouble {
             Self::TooMany => {
                 let message = format!("the curves of the drawing have more than {MOST_POINTS} points");
                 refused(node, ErrorKind::TooLarge, message, "draw it with fewer curves")
+            }
+            Self::Tangled => {
+                let message = format!("a `{}` crosses itself millions of times", node.tag_name().name());
+                refused(node, ErrorKind::TooLarge, message, TANGLED)
             }
         }
     }
