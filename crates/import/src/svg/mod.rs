@@ -65,7 +65,7 @@ pub(crate) fn read(bytes: &[u8], unit: FileUnit) -> Result<Drawing, ImportError>
         let message = "the shapes of a layer cross each other millions of times";
         return Err(ImportError::new(ErrorKind::TooLarge, Place::File, message, TANGLED));
     }
-    let untidy: usize = layers.par_iter().map(|layer| usize::from(nest::too_many(&layer.shapes))).sum();
+    let untidy = layers.iter().filter(|layer| nest::too_many(&layer.shapes)).count();
     let layers: Vec<RotatedLoopLayer> = layers
         .into_par_iter()
         .map(|layer| RotatedLoopLayer { z: layer.z, loops: nest::loops(layer.shapes), ..Default::default() })
