@@ -25,7 +25,7 @@ pub(crate) fn open<P: AsRef<[u8]>>(
                     .hint("slice it by itself"));
             }
             sliced.formats.push(Format::Svg);
-            let document = Document::Slices(layers(bytes, &profile.machine)?);
+            let document = Document::Slices(layers(bytes, profile, &mut sliced.notes)?);
             return Ok(Door { document, doubt });
         }
         done = Plate::stages_of(bytes);
@@ -43,14 +43,28 @@ pub(crate) struct Door {
     pub(crate) doubt: Option<String>,
 }
 
-/// The layers of a drawing that carve wrote, which nobody moves any more.
-fn layers(bytes: &[u8], machine: &Machine) -> Result<Slices, Error> {
-    let slices = Slices::read(bytes).map_err(|error| {
-        error.hint(
-            "of drawings, only the layers that carve writes are read, which say how high they are: \
-             clayforge slice PART --until carve",
-        )
-    })?;
+/// The layers of a drawing: those of another program are for carve, which puts them on the bed; those that carve wrote
+/// nobody moves any more.
+fn layers(bytes: &[u8], profile: &Profile, notes: &mut Notes) -> Result<Slices, Error> {
+    let slices = drawing(bytes, &profile.import, notes)?;
+    if slices.done.iter().any(|done| done.stage == carve::Carve::NAME) {
+        on_the_bed(&slices, &profile.machine)?;
+    }
+    Ok(slices)
+}
+
+/// Reads a drawing, by whomever it is.
+pub(crate) fn drawing(bytes: &[u8], import: &Import, notes: &mut Notes) -> Result<Slices, Error> {
+    if Slices::is_own(bytes) {
+        return Slices::read(bytes);
+    }
+    let drawing = import.drawing(bytes)?;
+    drawing.remarks.into_iter().for_each(|remark| notes.say(remark));
+    notes.said_by(Import::NAME);
+    Ok(drawing.slices)
+}
+
+fn on_the_bed(slices: &Slices, machine: &Machine) -> Result<(), Error> {
     let (left, front) = machine.least();
     let (right, back) = (left + machine.bed.x.0, front + machine.bed.y.0);
     let beside = slices.layers.iter().enumerate().find_map(|(layer, drawn)| {
@@ -71,7 +85,7 @@ fn layers(bytes: &[u8], machine: &Machine) -> Result<Slices, Error> {
         ))
         .hint("set machine.bed"));
     }
-    Ok(slices)
+    Ok(())
 }
 
 /// Reads a part for a closer look.

@@ -10,7 +10,7 @@ use crate::work::{Bench, Sink};
 use crate::{Document, Form};
 use clay_processor::{Firmware, Limits, Options, Processor, Report, Rule, Severity, Verdict};
 use import::{Format, Import};
-use skein::{Error, Notes, Signature, Skein, Slices, Value};
+use skein::{Error, Notes, Signature, Skein, Value};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 
 /// What happens while a part is sliced, for progress bars, clocks and dumps.
@@ -168,7 +168,9 @@ pub fn craft(
     {
         return sink(text);
     }
-    let document = read(takes, text, &profile.import, notes).map_err(|error| error.said_by(name))?;
+    // A drawing of another program is for carve as a mesh is.
+    let form = if form == Form::Slices && gives == Form::Slices { form } else { takes };
+    let document = read(form, text, &profile.import, notes).map_err(|error| error.said_by(name))?;
     if document.has_done(name) {
         return sink(text);
     }
@@ -365,7 +367,7 @@ fn read(form: Form, text: &[u8], import: &Import, notes: &mut Notes) -> Result<D
     match form {
         Form::Mesh => door::mesh(text, import, notes)
             .map(|mesh| Document::Mesh(Plate { parts: vec![mesh], done: Plate::stages_of(text) })),
-        Form::Slices => Slices::read(text).map(Document::Slices),
+        Form::Slices => door::drawing(text, import, notes).map(Document::Slices),
         Form::Skein | Form::Gcode => Skein::read(text).map(Document::Skein),
     }
 }

@@ -141,6 +141,9 @@ impl Work for Special<carve::Carve> {
                 slices.done = done.iter().map(|stage| Signature::new(stage, &[])).collect();
                 Ok(Document::Slices(slices))
             }
+            Document::Slices(drawing) => {
+                self.0.lay(drawing, bench.machine, bench.notes).map(Document::Slices)
+            }
             other => Err(wrong_form(Form::Mesh, other.form())),
         }
     }

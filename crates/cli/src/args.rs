@@ -80,6 +80,7 @@ Examples:
   clayforge slice cup.stl -o - --quiet | less                to standard output
   clayforge slice cup.stl --set carve.layer_height=1 --set 'machine.bed=[300, 300, 400]'
   clayforge slice cup.stl --set 'machine.e_unit={ ram = 60 }'
+  clayforge slice layers.svg                                 layers drawn elsewhere, each with its height (z:1.5)
   clayforge slice cup.stl lid.stl knob.stl -o set.gcode      side by side on one bed
   clayforge slice lying.stl --rotate 90,0,0                  stood up
   clayforge slice cup.stl --until fill --dump steps          stop behind fill and look at it

@@ -38,8 +38,10 @@ pub enum ErrorKind {
     TooFar,
     /// A facet, an object or a part of the package that is not there.
     Missing,
-    /// A file without facets.
+    /// A file without facets, or a drawing without shapes.
     NoFacets,
+    /// A drawing that says nowhere how high a layer is.
+    NoHeight,
     /// Facets without an area only.
     NoArea,
     /// More than a part may have, or more than a file of its size can hold in earnest.

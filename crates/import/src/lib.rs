@@ -12,6 +12,7 @@ mod polygon;
 mod recognise;
 mod scene;
 mod stl;
+mod svg;
 mod threemf;
 mod weld;
 mod words;
@@ -22,7 +23,7 @@ pub use measure::{FileUnit, Unit};
 pub use part::{Format, Part, Report};
 pub use recognise::is_drawing;
 
-use skein::Settings;
+use skein::{Settings, Slices};
 
 /// Reads a part.
 #[derive(Clone, Debug, PartialEq, Settings)]
@@ -50,6 +51,20 @@ impl Import {
         self.read_as(recognise::format(bytes)?, bytes)
     }
 
+    /// Reads the bytes of an SVG of any program as layers.
+    ///
+    /// ```
+    /// let svg = b"<svg><g id='z:0.5'><path d='M0 0 H8 V8 H0z'/></g></svg>";
+    /// let drawing = import::Import::default().drawing(svg).expect("a drawing");
+    /// assert_eq!(drawing.slices.layers[0].z.mm(), 0.5);
+    /// ```
+    ///
+    /// # Errors
+    /// When the bytes are no SVG, or one that is damaged or says nowhere how high a layer is.
+    pub fn drawing(&self, bytes: &[u8]) -> Result<Drawing, ImportError> {
+        svg::read(bytes, self.unit)
+    }
+
     /// Reads bytes as a file of one format, whatever they are.
     ///
     /// # Errors
@@ -67,4 +82,14 @@ impl Import {
             Format::Svg => Err(recognise::no_mesh()),
         }
     }
+}
+
+/// Layers as another program drew them.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// The loops of each layer, with y upwards, where the drawing has them, and its height, as the drawing says it. Of
+    /// the facts there are only those that the drawing says itself, and no stage has been here.
+    pub slices: Slices,
+    /// What was left out or guessed, one sentence for each kind.
+    pub remarks: Vec<String>,
 }

@@ -27,7 +27,7 @@ pub enum Format {
     ThreeMf,
     /// AMF: XML, plain or in an archive.
     Amf,
-    /// Layers as a drawing.
+    /// Layers as a drawing of any program.
     Svg,
 }
 

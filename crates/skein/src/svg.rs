@@ -84,6 +84,12 @@ impl Slices {
         out
     }
 
+    /// Whether a text says that carve wrote it. Of other drawings only the shapes are known.
+    pub fn is_own(text: &[u8]) -> bool {
+        let head = text.get(..4096).unwrap_or(text);
+        head.windows(NAMESPACE.len()).any(|window| window == NAMESPACE.as_bytes())
+    }
+
     /// Reads the drawing.
     ///
     /// # Errors

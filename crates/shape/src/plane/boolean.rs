@@ -18,6 +18,11 @@ pub fn nonzero(loops: &[Ring]) -> Vec<Ring> {
     apply(loops, &[], OverlayRule::Subject, FillRule::NonZero)
 }
 
+/// What lies inside an odd number of loops.
+pub fn even_odd(loops: &[Ring]) -> Vec<Ring> {
+    apply(loops, &[], OverlayRule::Subject, FillRule::EvenOdd)
+}
+
 /// What lies in the first region and not in the second.
 pub fn difference(region: &[Ring], without: &[Ring]) -> Vec<Ring> {
     apply(region, without, OverlayRule::Difference, FillRule::Positive)

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod bridge;
+mod drawn;
 mod gaps;
 mod loops;
 mod planes;
@@ -117,7 +118,8 @@ impl Carve {
         self.check_bead(machine, notes)?;
         let mut mesh = self.plate(parts, machine, notes)?;
         let spot = self.spot(mesh.bounds(), machine, notes)?;
-        plate::fits(&mesh, spot.shift, &spot.bounds, machine)?;
+        let corners = mesh.vertices.iter().map(|corner| Point::new(corner.x, corner.y));
+        plate::fits(corners, spot.shift, &spot.bounds, machine)?;
         let slabs = planes::slabs(Micron(spot.bounds.max.z), self.first_layer_height, self.layer_height)?;
         let slabs = self.kept(slabs)?;
         // The part is cut where it lies and its loops are moved: a million vertices need not be.
@@ -138,7 +140,7 @@ impl Carve {
     }
 
     /// The layers without those that are left out below and above.
-    fn kept(&self, mut slabs: Vec<Slab>) -> Result<Vec<Slab>, Error> {
+    fn kept<T>(&self, mut slabs: Vec<T>) -> Result<Vec<T>, Error> {
         let count = slabs.len();
         let (below, above) = (self.skip_lowest as usize, self.skip_topmost as usize);
         if below.saturating_add(above) >= count {
@@ -157,7 +159,7 @@ impl Carve {
         let wall = self.bead_width.um() + f64::from(self.wall_beads - 1) * bead.spacing().um();
         let how = How {
             close_gaps: self.close_gaps.um(),
-            tolerance: (self.bead_width.um() / 100.0).min(SIMPLIFY),
+            tolerance: self.tolerance(),
             wall: (self.surface == Surface::Wall).then_some(wall),
         };
         (0..planes.len())
@@ -168,6 +170,11 @@ impl Carve {
                 cut
             })
             .collect()
+    }
+
+    /// How near to a straight side a corner must be to be dropped, in microns.
+    fn tolerance(&self) -> f64 {
+        (self.bead_width.um() / 100.0).min(SIMPLIFY)
     }
 
     /// The layers as a document.
@@ -199,10 +206,7 @@ impl Carve {
         for (index, (slab, layer)) in slabs.iter().zip(cut).enumerate() {
             notes.append(layer.notes);
             if layer.loops.is_empty() {
-                notes.layer(
-                    index,
-                    "nothing of the part is in this layer: what is above has nothing to stand on",
-                );
+                notes.layer(index, NOTHING_HERE);
             }
             let thickness = (slab.height != self.layer_height).then_some(slab.height);
             slices.layers.push(RotatedLoopLayer {
@@ -264,11 +268,17 @@ impl Carve {
     fn with_bridges(&self, mut slices: Slices, mesh: &TriangleMesh, planes: &[i32]) -> Slices {
         let reach = bridge::REACH * self.bead_width.um();
         let candidates = planes_over_undersides(mesh, planes, reach / self.layer_height.um());
+        self.bridged(&mut slices, |index| candidates[index]);
+        slices
+    }
+
+    /// Looks for bridges in the layers that may have some.
+    fn bridged(&self, slices: &mut Slices, may_be: impl Fn(usize) -> bool + Sync) {
         let directions: Vec<Option<Direction>> = (0..slices.layers.len())
             .into_par_iter()
             .map(|index| {
                 let below = slices.layers.get(index.checked_sub(1)?)?;
-                if !candidates[index] || below.loops.is_empty() {
+                if !may_be(index) || below.loops.is_empty() {
                     return None;
                 }
                 bridge::direction(&slices.layers[index].loops, &below.loops, self.bead_width.um())
@@ -277,13 +287,15 @@ impl Carve {
         for (layer, rotation) in slices.layers.iter_mut().zip(directions) {
             layer.rotation = rotation;
         }
-        slices
     }
 }
 
 /// Corners of the mesh nearer than this to a straight side are dropped: a hundredth of a bead, but never more than
 /// five microns, which no nozzle of a millimetre can show.
 const SIMPLIFY: f64 = 5.0;
+
+/// What is said of a layer without loops.
+const NOTHING_HERE: &str = "nothing of the part is in this layer: what is above has nothing to stand on";
 
 /// What helps when a surface encloses nothing.
 const SKIN: &str = "a surface of one skin is printed as a wall with carve.surface = \"wall\"";

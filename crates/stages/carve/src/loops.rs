@@ -1,8 +1,8 @@
 //! Chains of a section become closed, oriented loops.
 
 use crate::gaps::{Joined, joined};
-use shape::plane::boolean::nonzero;
-use shape::plane::{crossing, offset, simplified, united};
+use shape::plane::boolean::{nonzero, positive};
+use shape::plane::{all_simplified, crossing, offset, simplified, united};
 use shape::solid::Chain;
 use shape::{Point, Ring};
 use skein::Notes;
@@ -59,6 +59,12 @@ pub fn of_chains(chains: Vec<Chain>, how: How, layer: usize) -> Layer {
     let meet = done.crossed || was_open && rings.len() > 1;
     done.loops = if meet { ordered(nonzero(&rings)) } else { nested(rings) };
     done
+}
+
+/// The loops of a drawn layer: counter-clockwise around clay already.
+pub fn of_rings(rings: &[Ring], tolerance: f64) -> Vec<Ring> {
+    let rings = all_simplified(rings, tolerance);
+    ordered(if crossing(&rings) { positive(&rings) } else { rings })
 }
 
 /// The ring simplified. One that encloses nothing is none, unless it crosses itself so that its sides cancel.

@@ -2,7 +2,7 @@
 
 use crate::{Carve, Place, SKIN, Surface};
 use mesh::{Repair, Turn};
-use shape::{Bounds, Point3, TriangleMesh};
+use shape::{Bounds, Point, Point3, TriangleMesh};
 use skein::{Angle, BedShape, Error, Kind, Machine, Micron, Notes, Setting, Value};
 use std::borrow::Cow;
 
@@ -163,7 +163,14 @@ fn nothing() -> Error {
 }
 
 /// Whether the part has its place on the machine.
-pub fn fits(mesh: &TriangleMesh, shift: Point3, bounds: &Bounds, machine: &Machine) -> Result<(), Error> {
+///
+/// The corners are those of the part before it is moved.
+pub fn fits(
+    corners: impl Iterator<Item = Point>,
+    shift: Point3,
+    bounds: &Bounds,
+    machine: &Machine,
+) -> Result<(), Error> {
     let (left, front) = machine.least();
     let size = |low: i32, high: i32| Micron(high - low);
     let part = [
@@ -194,17 +201,21 @@ pub fn fits(mesh: &TriangleMesh, shift: Point3, bounds: &Bounds, machine: &Machi
         ))
         .hint("carve.place = \"bed\", or --center, puts it on the middle of the bed"));
     }
-    fits_round_bed(mesh, shift, machine)
+    fits_round_bed(corners, shift, machine)
 }
 
 /// Whether every corner of the part lies on an elliptic bed.
-fn fits_round_bed(mesh: &TriangleMesh, shift: Point3, machine: &Machine) -> Result<(), Error> {
+fn fits_round_bed(
+    mut corners: impl Iterator<Item = Point>,
+    shift: Point3,
+    machine: &Machine,
+) -> Result<(), Error> {
     if machine.shape == BedShape::Rectangle {
         return Ok(());
     }
     let (left, front) = machine.least();
     let (half_x, half_y) = (machine.bed.x.um() / 2.0, machine.bed.y.um() / 2.0);
-    let beside = mesh.vertices.iter().find(|vertex| {
+    let beside = corners.find(|vertex| {
         let x = (f64::from(vertex.x + shift.x) - f64::from(left) - half_x) / half_x;
         let y = (f64::from(vertex.y + shift.y) - f64::from(front) - half_y) / half_y;
         x * x + y * y > 1.0
