@@ -5,6 +5,8 @@
 (<nozzleDiameter> 3.0 </nozzleDiameter>)
 (<eUnit> mm3 </eUnit>)
 (<heaters> none </heaters>)
+(<startLag> 0.2 </startLag>)
+(<stopLag> 0.2 </stopLag>)
 (<beadSection> rectangle </beadSection>)
 (<operatingFeedRatePerSecond> 30.0 </operatingFeedRatePerSecond>)
 (<travelFeedRatePerSecond> 60.0 </travelFeedRatePerSecond>)
