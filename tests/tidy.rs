@@ -122,7 +122,10 @@ fn every_page_of_a_stage_says_what_it_is_for_and_what_not() {
 fn every_page_of_a_stage_shows_a_picture_of_a_case() {
     for folder in stages() {
         let (name, page) = (name_of(&folder), text_of(&folder.join("README.md")));
-        let (_, behind) = page.split_once("](").unwrap_or_else(|| panic!("{name} shows no picture"));
+        let (_, behind) = page
+            .split_once("![")
+            .and_then(|(_, behind)| behind.split_once("]("))
+            .unwrap_or_else(|| panic!("{name} shows no picture"));
         let picture = behind.split(')').next().unwrap_or("");
         assert!(picture.starts_with(&name) && folder.join(picture).exists(), "{name} shows `{picture}`");
         assert!(behind.contains(" before\n"), "no case stands behind the picture of {name}");

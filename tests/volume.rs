@@ -92,8 +92,6 @@ const CHANGES: &[(&str, Most, Most, &str)] = &[
     ("inset", NOTHING, Most { room: FULLEST, ..NOTHING }, "lays the outermost wall; in a thin part it lies twice"),
     ("fill", Most { share: FULLEST - 1.0, ..NOTHING }, Most { room: 1.05, ..NOTHING },
         "lays the inner walls and the infill; walls that face each other share their clay"),
-    ("join", Most { share: 0.005, ..NOTHING }, Most { share: 0.005, ..NOTHING },
-        "shares the clay of what it joins out along the one thread, to half a hundredth"),
     ("clip", Most { thread: WIDTH, ..NOTHING }, NOTHING, "ends each wall half a width early on either side"),
     ("stretch", NOTHING, Most { thread: std::f64::consts::TAU * 0.32 * WIDTH, ..NOTHING },
         "a wall round a hole is laid up to 0.32 widths further out"),
