@@ -234,7 +234,13 @@ fn clay_of(lines: &[Line], nozzle: &mut Nozzle) -> f64 {
 }
 
 fn starts(skein: &Skein) -> usize {
-    skein.lines().filter(|line| **line == Line::On).count()
+    let mut nozzle = Nozzle::default();
+    let mut starts = 0;
+    for line in skein.lines() {
+        starts += usize::from(*line == Line::On && !nozzle.on);
+        nozzle.follow(line);
+    }
+    starts
 }
 
 #[test]

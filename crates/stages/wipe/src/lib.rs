@@ -99,7 +99,10 @@ impl Way<'_> {
             }
             let before = was;
             was.follow(&line);
-            pen.pass(line, &before);
+            // Clay that came from the layer below has been started again already.
+            if !(wiped && before.on && line == Line::On) {
+                pen.pass(line, &before);
+            }
         }
         pen.finish(&was)
     }
