@@ -1,6 +1,7 @@
 //! Every test that needs more than one crate, in one binary.
 //!
 //! * [`cases`]: the pages of the stages are their tests;
+//! * [`joined`]: stages that work on threads, on those that join has made;
 //! * [`law`]: reading undoes writing, and views leave nothing out;
 //! * [`parts`]: whole prints, in memory and as text, on one thread and on two;
 //! * [`everything`]: all stages at once, on every part, in both chains;
@@ -22,6 +23,7 @@ mod emulate;
 mod everything;
 mod fuzzing;
 mod import;
+mod joined;
 mod law;
 mod outage;
 mod parts;

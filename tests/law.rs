@@ -313,18 +313,25 @@ proptest! {
     }
 
     #[test]
-    fn spans_end_to_end_are_all_lines(lines in vec(line(), 0..60)) {
-        let together: Vec<&Line> = spans(&lines)
+    fn spans_end_to_end_are_all_lines(lines in vec(line(), 0..60), mut flowing in any::<bool>()) {
+        let together: Vec<&Line> = spans(&lines, flowing)
             .flat_map(|span| match span {
                 Span::Thread(lines) | Span::Travel(lines) => lines.iter().collect::<Vec<_>>(),
                 Span::Other(line) => vec![line],
             })
             .collect();
         prop_assert_eq!(together, lines.iter().collect::<Vec<_>>());
-        for span in spans(&lines) {
+        for span in spans(&lines, flowing) {
             match span {
-                Span::Thread(lines) => prop_assert_eq!(&lines[0], &Line::On),
-                Span::Travel(lines) => prop_assert!(lines.iter().all(|line| line.as_move().is_some())),
+                Span::Thread(lines) => {
+                    prop_assert!(flowing || lines[0] == Line::On);
+                    let (last, before) = lines.split_last().expect("a line");
+                    prop_assert!(!before.contains(&Line::Off));
+                    flowing = *last != Line::Off;
+                }
+                Span::Travel(lines) => {
+                    prop_assert!(!flowing && lines.iter().all(|line| line.as_move().is_some()));
+                }
                 Span::Other(line) => prop_assert!(!matches!(line, Line::Move(_) | Line::On)),
             }
         }

@@ -424,8 +424,8 @@ fn a_1_every_layer_of_every_part_has_a_bead_in_both_chains() {
         for chain in ["clay", "seed"] {
             let run = sliced(name, &stl(&part), &clay(&[("chain", chain)]));
             let skein = Skein::read(run.behind("dimension")).expect("a skein");
-            for (index, layer) in skein.layers.iter().enumerate() {
-                let empty = !spans(&layer.lines).any(|span| matches!(span, Span::Thread(_)));
+            for (index, (layer, entering)) in skein.layers.iter().zip(skein.nozzles()).enumerate() {
+                let empty = !spans(&layer.lines, entering.on).any(|span| matches!(span, Span::Thread(_)));
                 let tip = name == "cone" && index + 1 == skein.layers.len();
                 assert!(!empty || tip, "{name}, {chain}: layer {index} has no bead");
                 let said = run.sliced.notes.iter().any(|note| note.layer == Some(index));
@@ -544,7 +544,7 @@ fn row(stage: &str, form: Form, text: &[u8]) -> Row {
             let skein = Skein::read(text).expect("a skein");
             let mut nozzle = Nozzle::default();
             for layer in &skein.layers {
-                for span in spans(&layer.lines) {
+                for span in spans(&layer.lines, nozzle.on) {
                     threads += usize::from(matches!(span, Span::Thread(_)));
                     travels += usize::from(matches!(span, Span::Travel(_)));
                 }

@@ -43,14 +43,14 @@ impl Totals {
         for line in skein.lines() {
             if let (Some(step), Some(from)) = (line.as_move(), nozzle.at) {
                 let length = step.length(from) / 1000.0;
-                match (nozzle.on, nozzle.feature) {
+                match (nozzle.on, nozzle.feature()) {
                     (false, _) => totals.travel_mm += length,
                     (true, Feature::Edge(_)) => totals.edges_mm += length,
                     _ => {}
                 }
             }
             if *line == Line::On {
-                match nozzle.feature {
+                match nozzle.feature() {
                     Feature::Edge(_) => totals.edges += 1,
                     Feature::Loop(_) => totals.loops += 1,
                     Feature::Infill => totals.infill += 1,
@@ -113,7 +113,7 @@ fn w2_two_walls_fit_a_widened_tube() {
         if let (true, Some(at)) = (nozzle.on, nozzle.at) {
             // The part stands on the middle of the bed.
             let (x, y) = (f64::from(at.x) / 1000.0 - 100.0, f64::from(at.y) / 1000.0 - 100.0);
-            radii.push((nozzle.feature, (x * x + y * y).sqrt()));
+            radii.push((nozzle.feature(), (x * x + y * y).sqrt()));
         }
     }
     for (side, radius) in [(Side::Inner, 14.56), (Side::Outer, 15.28)] {

@@ -36,7 +36,7 @@ fn clays(skein: &Skein) -> Vec<Clay> {
         for line in &layer.lines {
             if let (true, Some(from), Some(_)) = (nozzle.on, nozzle.at, line.as_move()) {
                 let volume = line.length(from) / 1000.0 * clay.section * nozzle.flow.f64();
-                match nozzle.feature {
+                match nozzle.feature() {
                     Feature::Skirt | Feature::Raft | Feature::Support => clay.beside += volume,
                     _ => clay.part += volume,
                 }

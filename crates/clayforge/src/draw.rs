@@ -176,7 +176,7 @@ fn end_run(run: &mut Vec<Point>, nozzle: &Nozzle, bead: Bead, picture: &mut Pict
         if nozzle.on {
             let height = bead.height.mm();
             let width = bead.section.width(bead.area() * nozzle.flow.f64(), height);
-            picture.path(run, width, &format!("class=\"{}\"", class_of(nozzle.feature)));
+            picture.path(run, width, &format!("class=\"{}\"", class_of(nozzle.feature())));
         } else {
             let mut above = Picture { corners: picture.corners, ..Picture::default() };
             above.path(run, (bead.width.mm() / 12.0).max(0.02), "class=\"travel\"");

@@ -24,8 +24,10 @@ mod reader;
 pub mod settings;
 
 mod slices;
+mod span;
 mod stage;
 mod svg;
+mod thread;
 mod verify;
 
 pub use arc::{Arc, Center};
@@ -36,13 +38,15 @@ pub use lag::{End, OrLag};
 pub use line::{Feature, Line, Mark, Move, Side, Tag};
 pub use machine::{Bed, BedArea, BedShape, EUnit, Firmware, Heaters, Machine, Origin};
 pub use notes::{Note, Notes};
-pub use nozzle::{Nozzle, Span, boundary, spans};
-pub use pen::{Pen, Stretch, Thread, along};
+pub use nozzle::Nozzle;
+pub use pen::Pen;
 pub use reader::Reader;
 pub use settings::{Choice, Field, Kind, Setting, SettingError, Settings, Value};
 pub use skein_derive::{Choice, Settings};
 pub use slices::{RotatedLoopLayer, Slices};
+pub use span::{Span, boundary, spans};
 pub use stage::Stage;
+pub use thread::{Stretch, Thread, along};
 
 pub use shape::{Point, Point3, Ring};
 pub use unit::{Angle, Celsius, Direction, Extrusion, Feed, Micron, Ratio};

@@ -1,8 +1,8 @@
-//! Views: where the nozzle is, and which lines belong together.
+//! What the nozzle does, line by line and layer by layer.
 
-use crate::{Feature, Line, Mark, Side, Skein, Tag};
+use crate::{Feature, Line, Side, Skein, Tag};
 use rayon::prelude::*;
-use shape::{Point, Point3, Ring};
+use shape::{Point3, Ring};
 use unit::{Feed, Ratio};
 
 /// What the nozzle is doing. Fed every line in order, it knows where it is, whether clay flows, and what for.
@@ -16,13 +16,13 @@ pub struct Nozzle {
     pub flow: Ratio,
     /// The last feed said.
     pub feed: Option<Feed>,
-    /// What the present bead is for.
-    pub feature: Feature,
+    /// The block of beads that is open.
+    pub block: Option<Feature>,
 }
 
 impl Default for Nozzle {
     fn default() -> Self {
-        Self { at: None, on: false, flow: Ratio::ONE, feed: None, feature: Feature::Middle }
+        Self { at: None, on: false, flow: Ratio::ONE, feed: None, block: None }
     }
 }
 
@@ -39,17 +39,28 @@ impl Nozzle {
             Line::On => self.on = true,
             Line::Off => self.on = false,
             Line::Flow(flow) => self.flow = *flow,
-            Line::Wall(Tag::Edge, side) => self.feature = Feature::Edge(*side),
-            Line::Wall(Tag::Loop, side) => self.feature = Feature::Loop(*side),
-            Line::Open(Tag::Infill) => self.feature = Feature::Infill,
-            Line::Open(Tag::Skirt) => self.feature = Feature::Skirt,
-            Line::Open(Tag::Support) => self.feature = Feature::Support,
-            Line::Open(Tag::Raft) => self.feature = Feature::Raft,
-            Line::Close(Tag::Edge | Tag::Loop | Tag::Infill | Tag::Skirt | Tag::Support | Tag::Raft) => {
-                self.feature = Feature::Middle;
+            line => {
+                if let Some(block) = line.block() {
+                    self.block = block;
+                }
             }
-            _ => {}
         }
+    }
+
+    /// What the present bead is for. One outside of every block lies alone, as one on the middle of a thin part does.
+    pub fn feature(&self) -> Feature {
+        self.block.unwrap_or(Feature::Middle)
+    }
+
+    /// How long the way of these lines is from here, in microns.
+    pub fn way(&self, lines: &[Line]) -> f64 {
+        let mut nozzle = *self;
+        let mut way = 0.0;
+        for line in lines {
+            way += nozzle.at.map_or(0.0, |from| line.length(from));
+            nozzle.follow(line);
+        }
+        way
     }
 
     /// Keeps the speed of lines that other lines have come before: the first move, if it says none, says the one that
@@ -128,63 +139,36 @@ impl Skein {
     }
 }
 
-/// Lines that belong together. End to end the spans of a layer are all its lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Span<'a> {
-    /// From where clay begins to flow to where it stops.
-    Thread(&'a [Line]),
-    /// Moves without clay, one after the other.
-    Travel(&'a [Line]),
-    /// Any other line.
-    Other(&'a Line),
-}
-
-impl<'a> Span<'a> {
-    /// Its lines.
-    pub fn lines(&self) -> &'a [Line] {
-        match self {
-            Self::Thread(lines) | Self::Travel(lines) => lines,
-            Self::Other(line) => std::slice::from_ref(line),
-        }
-    }
-}
-
-/// Cuts lines into threads, travels and the rest.
-pub fn spans(lines: &[Line]) -> impl Iterator<Item = Span<'_>> {
-    let mut rest = lines;
-    std::iter::from_fn(move || {
-        let (first, _) = rest.split_first()?;
-        let length = match first {
-            Line::On => {
-                rest.iter().position(|line| matches!(line, Line::Off)).map_or(rest.len(), |end| end + 1)
+impl Line {
+    /// The block of beads that is open behind this line, if it opens or closes one.
+    pub(crate) fn block(&self) -> Option<Option<Feature>> {
+        Some(match self {
+            Self::Wall(Tag::Edge, side) => Some(Feature::Edge(*side)),
+            Self::Wall(Tag::Loop, side) => Some(Feature::Loop(*side)),
+            Self::Open(tag) => Some(tag.feature()?),
+            Self::Close(Tag::Edge | Tag::Loop) => None,
+            Self::Close(tag) => {
+                tag.feature()?;
+                None
             }
-            line if line.as_move().is_some() => {
-                rest.iter().position(|line| line.as_move().is_none()).unwrap_or(rest.len())
-            }
-            _ => 1,
-        };
-        let (span, after) = rest.split_at(length);
-        rest = after;
-        Some(match first {
-            Line::On => Span::Thread(span),
-            line if line.as_move().is_some() => Span::Travel(span),
-            line => Span::Other(line),
+            _ => return None,
         })
-    })
+    }
 }
 
-/// The outlines of a layer: one ring for each boundary block.
-pub fn boundary(lines: &[Line]) -> Vec<Ring> {
-    let mut rings = Vec::new();
-    let mut points = Vec::new();
-    for line in lines {
-        match line {
-            Line::Point(Mark::Boundary, at) => points.push(Point::new(at.x, at.y)),
-            Line::Close(Tag::BoundaryPerimeter) => rings.push(Ring(std::mem::take(&mut points))),
-            _ => {}
+impl Tag {
+    /// What the beads of a block of this name are for; nothing for walls, whose side is not in the name, and for what has
+    /// no beads of its own.
+    fn feature(self) -> Option<Feature> {
+        match self {
+            Self::Infill => Some(Feature::Infill),
+            Self::Middle => Some(Feature::Middle),
+            Self::Skirt => Some(Feature::Skirt),
+            Self::Support => Some(Feature::Support),
+            Self::Raft => Some(Feature::Raft),
+            _ => None,
         }
     }
-    rings
 }
 
 impl Feature {

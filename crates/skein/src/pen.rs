@@ -1,7 +1,7 @@
 //! Writes the lines of a layer anew. Speed and flow hold until they are said again, so what is inserted, left out or
 //! turned round must not change those of what follows.
 
-use crate::{Line, Move, Nozzle};
+use crate::{Feature, Layer, Line, Move, Nozzle, Span, Stretch, Thread, spans};
 use shape::Point3;
 use unit::{Feed, Ratio};
 
@@ -12,24 +12,6 @@ pub struct Pen {
     /// The nozzle in front of the line that was written last.
     before: Nozzle,
     lines: Vec<Line>,
-}
-
-/// A piece of a thread, as straight as a move.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Stretch {
-    /// Where it ends, how fast it is if anybody has said so, and what it pushes if that is said.
-    pub step: Move,
-    /// The share of the nominal section that flows.
-    pub flow: Ratio,
-}
-
-/// A thread taken apart, so that it can be turned, cut and moved.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Thread {
-    /// Where it begins.
-    pub start: Point3,
-    /// Its pieces in order.
-    pub stretches: Vec<Stretch>,
 }
 
 impl Pen {
@@ -64,6 +46,14 @@ impl Pen {
             };
         }
         self.push(line);
+    }
+
+    /// Passes old lines on in order; `was` is the nozzle in front of them in the old layer, and then behind them.
+    pub fn pass_all(&mut self, lines: &[Line], was: &mut Nozzle) {
+        for line in lines {
+            self.pass(line.clone(), was);
+            was.follow(line);
+        }
     }
 
     /// A move at a speed.
@@ -130,16 +120,50 @@ impl Pen {
         }
     }
 
-    /// Lays a whole thread from where the nozzle stands.
-    pub fn thread(&mut self, thread: &Thread) {
-        let Some(first) = thread.stretches.first() else { return };
-        self.flow(first.flow);
-        self.on();
-        for stretch in &thread.stretches {
-            self.flow(stretch.flow);
-            self.step(stretch.step);
+    /// From here this block is open.
+    pub fn block(&mut self, block: Option<Feature>) {
+        if self.nozzle.block != block {
+            if let Some((_, close)) = self.nozzle.block.map(Feature::tags) {
+                self.push(close);
+            }
+            if let Some((open, _)) = block.map(Feature::tags) {
+                self.push(open);
+            }
         }
-        self.off();
+    }
+
+    /// Clay flows from here as it does for this piece.
+    pub fn start(&mut self, stretch: &Stretch) {
+        self.ready(stretch);
+        self.on();
+    }
+
+    /// What comes next is in the block of this piece and flows as it does.
+    pub fn ready(&mut self, stretch: &Stretch) {
+        self.block(stretch.block);
+        self.flow(stretch.flow);
+    }
+
+    /// Lays a piece of a thread.
+    pub fn lay(&mut self, stretch: &Stretch) {
+        self.ready(stretch);
+        self.step(stretch.step);
+    }
+
+    /// Lays a whole thread from where the nozzle stands, in place of one that `behind` knows the end of.
+    pub fn thread(&mut self, thread: &Thread, behind: &Nozzle) {
+        let Some(first) = thread.stretches.first() else { return };
+        self.start(first);
+        thread.stretches.iter().for_each(|stretch| self.lay(stretch));
+        self.end(behind);
+    }
+
+    /// Ends a thread as the one whose place it takes: clay stops unless it flowed on, and the same block is open.
+    pub fn end(&mut self, behind: &Nozzle) {
+        if !behind.on {
+            self.off();
+        }
+        self.block(behind.block);
     }
 
     /// The lines. Behind them flows what flowed behind the old ones, which `was` knows.
@@ -152,114 +176,36 @@ impl Pen {
     }
 }
 
-impl Thread {
-    /// Takes a thread apart; `was` is the nozzle in front of its `M101`. Nothing when it has lines that are neither
-    /// straight moves nor flows, or no move at all.
-    pub fn read(lines: &[Line], was: &Nozzle) -> Option<Self> {
-        let mut nozzle = *was;
-        let mut stretches = Vec::with_capacity(lines.len());
-        for line in lines {
-            nozzle.follow(line);
-            match line {
-                Line::Move(step) => {
-                    stretches.push(Stretch { step: Move { feed: nozzle.feed, ..*step }, flow: nozzle.flow });
+impl Layer {
+    /// Its lines with other threads: `anew` says what takes the place of each, or nothing when it stays. It is shown the
+    /// thread and the nozzle in front of it and behind it.
+    pub fn rethread(
+        self,
+        entering: &Nozzle,
+        mut anew: impl FnMut(&Thread, &Nozzle, &Nozzle) -> Option<Thread>,
+    ) -> Vec<Line> {
+        let mut was = *entering;
+        let mut pen = Pen::new(entering, self.lines.len() * 3 / 2);
+        for span in spans(&self.lines, entering.on) {
+            let mut behind = was;
+            span.lines().iter().for_each(|line| behind.follow(line));
+            let thread = match span {
+                Span::Thread(lines) => Thread::read(lines, &was),
+                _ => None,
+            };
+            match thread.and_then(|thread| Some((anew(&thread, &was, &behind)?, thread))) {
+                Some((anew, thread)) => {
+                    if anew.start != thread.start {
+                        pen.arrive(anew.start);
+                    }
+                    pen.thread(&anew, &behind);
+                    was = behind;
                 }
-                Line::On | Line::Off | Line::Flow(_) => {}
-                _ => return None,
+                None => pen.pass_all(span.lines(), &mut was),
             }
         }
-        (!stretches.is_empty()).then_some(Self { start: was.at?, stretches })
+        pen.finish(&was)
     }
-
-    /// Where it ends.
-    pub fn end(&self) -> Point3 {
-        self.stretches.last().map_or(self.start, |last| last.step.to)
-    }
-
-    /// Whether it ends where it begins.
-    pub fn is_closed(&self) -> bool {
-        self.end() == self.start && self.stretches.len() > 1
-    }
-
-    /// Each piece with the place where it begins.
-    pub fn pieces(&self) -> impl Iterator<Item = (Point3, &Stretch)> {
-        let starts = std::iter::once(self.start).chain(self.stretches.iter().map(|stretch| stretch.step.to));
-        starts.zip(&self.stretches)
-    }
-
-    /// Its length in microns.
-    pub fn length(&self) -> f64 {
-        self.pieces().map(|(from, stretch)| stretch.step.length(from)).sum()
-    }
-
-    /// Cuts it at a length from its start, in microns; one of the parts is empty when that is beyond an end. What a cut
-    /// piece pushes is shared by length.
-    pub fn split(self, at: f64) -> (Self, Self) {
-        let mut before = Self { start: self.start, stretches: Vec::new() };
-        let mut left = at;
-        let mut rest = self.stretches.into_iter();
-        for stretch in rest.by_ref() {
-            let from = before.end();
-            let length = stretch.step.length(from);
-            if left < length {
-                if left <= 0.0 {
-                    let stretches = std::iter::once(stretch).chain(rest).collect();
-                    return (before, Self { start: from, stretches });
-                }
-                let (near, far) = stretch.cut(from, left / length);
-                before.stretches.push(near);
-                let stretches = std::iter::once(far).chain(rest).collect();
-                return (before, Self { start: near.step.to, stretches });
-            }
-            left -= length;
-            before.stretches.push(stretch);
-        }
-        let start = before.end();
-        (before, Self { start, stretches: Vec::new() })
-    }
-
-    /// Another thread behind it.
-    pub fn join(mut self, other: Self) -> Self {
-        self.stretches.extend(other.stretches);
-        self
-    }
-
-    /// The same thread from its end to its start.
-    pub fn reversed(mut self) -> Self {
-        let ends: Vec<Point3> = self.pieces().map(|(from, _)| from).collect();
-        let start = self.end();
-        self.stretches.iter_mut().zip(&ends).for_each(|(stretch, from)| stretch.step.to = *from);
-        self.stretches.reverse();
-        Self { start, ..self }
-    }
-}
-
-impl Stretch {
-    /// The two parts on either side of a share of its way.
-    fn cut(self, from: Point3, share: f64) -> (Self, Self) {
-        let between = |a: i32, b: i32| a + ((f64::from(b) - f64::from(a)) * share).round() as i32;
-        let to = self.step.to;
-        let middle = Point3 { x: between(from.x, to.x), y: between(from.y, to.y), z: between(from.z, to.z) };
-        let whole = self.step.extrusion;
-        let first = whole.and_then(|whole| unit::Extrusion::new((whole.get() as f64 * share).round() as i64));
-        let second =
-            whole.zip(first).and_then(|(whole, first)| unit::Extrusion::new(whole.get() - first.get()));
-        (
-            Self { step: Move { to: middle, extrusion: first, ..self.step }, ..self },
-            Self { step: Move { extrusion: second, ..self.step }, ..self },
-        )
-    }
-}
-
-/// A place at a length along the way from one to another, in microns.
-pub fn along(from: Point3, to: Point3, distance: f64) -> Point3 {
-    let length = Move::to(to).length(from);
-    if length == 0.0 {
-        return from;
-    }
-    let share = (distance / length).clamp(0.0, 1.0);
-    let between = |a: i32, b: i32| a + ((f64::from(b) - f64::from(a)) * share).round() as i32;
-    Point3 { x: between(from.x, to.x), y: between(from.y, to.y), z: between(from.z, to.z) }
 }
 
 #[cfg(test)]
@@ -317,7 +263,7 @@ M103
         let (before, after) = thread.split(15_000.0);
         let mut pen = Pen::new(&nozzle, 0);
         pen.go(after.start, None);
-        pen.thread(&after.join(before));
+        pen.thread(&after.join(before), &Nozzle::default());
         let mut end = nozzle;
         end.flow = Ratio(500_000);
         assert_eq!(
@@ -325,6 +271,49 @@ M103
             "G1 X10.0 Y5.0 Z1.0\nM108 S0.5\nM101\nG1 X10.0 Y10.0 Z1.0 F1800.0\nG1 X0.0 Y0.0 Z1.0 F900.0\nM108 S1.0\n\
              G1 X10.0 Y0.0 Z1.0 F1800.0\nM108 S0.5\nG1 X10.0 Y5.0 Z1.0\nM103\n"
         );
+    }
+
+    const JOINED: &str = "\
+(<loop> outer )
+G1 X0.0 Y0.0 Z1.0
+M101
+G1 X10.0 Y0.0 Z1.0
+(</loop>)
+(<infill>)
+M108 S0.5
+G1 X10.0 Y10.0 Z1.0
+M103
+(</infill>)
+";
+
+    #[test]
+    fn a_thread_goes_on_through_the_blocks_that_it_joins() {
+        let lines = lines(JOINED);
+        let spans: Vec<Span<'_>> = spans(&lines, false).collect();
+        assert!(
+            matches!(spans[..], [Span::Other(_), Span::Travel(_), Span::Thread(thread), Span::Other(_)] if thread.len() == 7)
+        );
+        let layer = Layer { lines: lines.clone() };
+        let turned = layer.rethread(&Nozzle::default(), |thread, _, _| Some(thread.clone().reversed()));
+        assert_eq!(
+            text(&turned),
+            "(<loop> outer )\nG1 X10.0 Y10.0 Z1.0\n(</loop>)\n(<infill>)\nM108 S0.5\nM101\nG1 X10.0 Y0.0 Z1.0\n\
+             (</infill>)\n(<loop> outer )\nM108 S1.0\nG1 X0.0 Y0.0 Z1.0\nM103\n(</loop>)\n(<infill>)\nM108 S0.5\n\
+             (</infill>)\n"
+        );
+    }
+
+    #[test]
+    fn clay_that_flows_in_or_out_of_a_layer_is_not_stopped_there() {
+        let text_in = "(<loop> outer )\nG1 X10.0 Y0.0 Z1.0\n(</loop>)\n(</nestedRing>)\n";
+        let entering = Nozzle { at: Some(Point3::default()), on: true, ..Nozzle::default() };
+        let layer = Layer { lines: lines(text_in) };
+        let mut seen = Vec::new();
+        let same = layer.rethread(&entering, |thread, before, behind| {
+            seen.push((thread.stretches.len(), before.on, behind.on));
+            Some(thread.clone())
+        });
+        assert_eq!((text(&same).as_str(), seen), (text_in, vec![(1, true, true)]));
     }
 
     #[test]

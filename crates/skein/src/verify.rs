@@ -2,7 +2,7 @@
 //!
 //! * The header ends, and no layer begins in it.
 //! * A layer's first line is its `(<layer>` line, and it has no other.
-//! * Clay does not start while it flows.
+//! * Clay does not start while it flows, be it from the layer below.
 //! * Blocks of a layer close in the order in which they opened, within their layer.
 //! * The tail, if there is one, begins with the line that closes the crafting block.
 
@@ -24,7 +24,17 @@ impl Skein {
         if self.tail.first().is_some_and(|line| *line != Line::Close(Tag::Crafting)) {
             return Err(Error::line(self.lines().count() - self.tail.len(), "the last layer never ends"));
         }
-        let broken: Vec<Option<(usize, String)>> = self.layers.par_iter().map(broken_law).collect();
+        let mut flows = flows_behind(&self.head).unwrap_or(false);
+        let entered: Vec<bool> = self
+            .layers
+            .iter()
+            .map(|layer| {
+                let behind = flows_behind(&layer.lines).unwrap_or(flows);
+                std::mem::replace(&mut flows, behind)
+            })
+            .collect();
+        let broken: Vec<Option<(usize, String)>> =
+            self.layers.par_iter().zip(entered).map(|(layer, flows)| broken_law(layer, flows)).collect();
         let mut before = self.head.len();
         for (layer, law) in self.layers.iter().zip(broken) {
             if let Some((index, message)) = law {
@@ -36,19 +46,23 @@ impl Skein {
     }
 }
 
-fn broken_law(layer: &Layer) -> Option<(usize, String)> {
+/// Whether clay flows behind some lines, if they say so.
+fn flows_behind(lines: &[Line]) -> Option<bool> {
+    lines.iter().rev().find(|line| matches!(line, Line::On | Line::Off)).map(|line| *line == Line::On)
+}
+
+fn broken_law(layer: &Layer, mut flows: bool) -> Option<(usize, String)> {
     if !matches!(layer.lines.first(), Some(Line::Layer(_))) {
         return Some((0, "a layer does not begin with its height".to_owned()));
     }
     let mut open: Vec<Tag> = Vec::new();
-    let mut on = false;
     for (index, line) in layer.lines.iter().enumerate() {
         match line {
             Line::Layer(_) if index > 0 => return Some((index, "a layer begins inside a layer".to_owned())),
             Line::Layer(_) => open.push(Tag::Layer),
-            Line::On if on => return Some((index, "a bead starts inside a bead".to_owned())),
-            Line::On => on = true,
-            Line::Off => on = false,
+            Line::On if flows => return Some((index, "a bead starts inside a bead".to_owned())),
+            Line::On => flows = true,
+            Line::Off => flows = false,
             Line::Open(tag) | Line::Wall(tag, _) | Line::Rotation(tag, _) => open.push(*tag),
             Line::Close(tag) if open.pop() != Some(*tag) => {
                 return Some((index, format!("`{}` closes what is not open", tag.name())));
@@ -57,4 +71,23 @@ fn broken_law(layer: &Layer) -> Option<(usize, String)> {
         }
     }
     open.pop().map(|tag| (layer.lines.len() - 1, format!("`{}` is never closed", tag.name())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Found by fuzzing: what one layer leaves open the next one began again, and no stage could mend it.
+    #[test]
+    fn a_bead_goes_on_from_layer_to_layer() {
+        let two = |second: &str| {
+            let text = format!(
+                "(</extruderInitialization>)\n(<layer> 1 )\nM101\n(</layer>)\n(<layer> 2 )\n{second}\n(</layer>)\n"
+            );
+            Skein::read(text.as_bytes()).expect("a skein").verify()
+        };
+        assert_eq!(two("M103"), Ok(()));
+        assert_eq!(two("M103\nM101"), Ok(()));
+        assert_eq!(two("M101"), Err(Error::line(5, "a bead starts inside a bead")));
+    }
 }

@@ -39,10 +39,14 @@ impl Stage for Clip {
                 ground: None,
                 width,
                 joined: 0,
+                mixed: false,
             };
             let lines = shears.layer(&layer, &nozzles[index]);
             if shears.joined > 0 {
                 notes.layer(index, "loops were joined to one thread");
+            }
+            if shears.mixed {
+                notes.layer(index, "walls that `join` has made one thread with others have no ends to clip");
             }
             Ok(lines)
         })
@@ -57,12 +61,15 @@ struct Shears {
     /// What a joint must not cross; looked up when the first joint is tried.
     ground: Option<Ground>,
     joined: usize,
+    /// Whether a wall is in one thread with other beads.
+    mixed: bool,
 }
 
 /// A clipped loop that waits for what comes behind it.
 struct Held {
     thread: Thread,
-    feature: Feature,
+    /// The nozzle behind it.
+    end: Nozzle,
     /// The lines behind it so far: its block's end, the next block's beginning, the travel there.
     behind: Vec<(Line, Nozzle)>,
 }
@@ -72,16 +79,21 @@ impl Shears {
         let mut was = *entering;
         let mut pen = Pen::new(entering, layer.lines.len() + 16);
         let mut held: Option<Held> = None;
-        for span in spans(&layer.lines) {
+        for span in spans(&layer.lines, entering.on) {
+            let mut end = was;
+            span.lines().iter().for_each(|line| end.follow(line));
             let clipped = match span {
-                Span::Thread(lines) if was.feature.is_wall() => {
-                    Thread::read(lines, &was).filter(Thread::is_closed).map(|wall| self.clipped(wall))
+                Span::Thread(lines) => {
+                    let thread = Thread::read(lines, &was);
+                    let free = |thread: &Thread| thread.is_wall() && !was.on && !end.on;
+                    self.mixed |= thread.as_ref().is_some_and(|thread| thread.has_wall() && !free(thread));
+                    thread.filter(free).map(|wall| self.clipped(wall))
                 }
                 _ => None,
             };
             match (clipped, &mut held) {
                 (Some(thread), _) => {
-                    held = Some(self.next(layer, &mut pen, held.take(), thread, was.feature));
+                    held = Some(self.next(layer, &mut pen, held.take(), thread, end));
                 }
                 (None, Some(waiting)) if self.may_wait(&span) => {
                     let mut at = was;
@@ -92,14 +104,10 @@ impl Shears {
                 }
                 (None, _) => {
                     held.take().into_iter().for_each(|held| lay(&mut pen, held));
-                    let mut at = was;
-                    for line in span.lines() {
-                        pen.pass(line.clone(), &at);
-                        at.follow(line);
-                    }
+                    pen.pass_all(span.lines(), &mut was);
                 }
             }
-            span.lines().iter().for_each(|line| was.follow(line));
+            was = end;
         }
         held.into_iter().for_each(|held| lay(&mut pen, held));
         pen.finish(&was)
@@ -128,26 +136,26 @@ impl Shears {
         pen: &mut Pen,
         held: Option<Held>,
         thread: Thread,
-        feature: Feature,
+        end: Nozzle,
     ) -> Held {
         let Some(waiting) = held else {
             pen.arrive(thread.start);
-            return Held { thread, feature, behind: Vec::new() };
+            return Held { thread, end, behind: Vec::new() };
         };
-        if let Some(joined) = self.joint(layer, &waiting, &thread, feature) {
+        if let Some(joined) = self.joint(layer, &waiting, &thread, end) {
             self.joined += 1;
             // The end of the first block, the beginning of the second and the travel between them are gone.
             return Held { thread: joined, behind: Vec::new(), ..waiting };
         }
         lay(pen, waiting);
         pen.arrive(thread.start);
-        Held { thread, feature, behind: Vec::new() }
+        Held { thread, end, behind: Vec::new() }
     }
 
     /// Both loops as one thread, if they are of a kind and nothing lies between their ends.
-    fn joint(&mut self, layer: &Layer, waiting: &Held, thread: &Thread, feature: Feature) -> Option<Thread> {
+    fn joint(&mut self, layer: &Layer, waiting: &Held, thread: &Thread, end: Nozzle) -> Option<Thread> {
         let kind = |feature: Feature| std::mem::discriminant(&feature);
-        if kind(waiting.feature) != kind(feature) || self.reach == 0.0 {
+        if kind(waiting.end.feature()) != kind(end.feature()) || self.reach == 0.0 {
             return None;
         }
         // A joined thread runs on the way it went.
@@ -174,7 +182,7 @@ fn is_end_of_wall(line: &Line) -> bool {
 
 /// Lays a loop and what stood behind it.
 fn lay(pen: &mut Pen, held: Held) {
-    pen.thread(&held.thread);
+    pen.thread(&held.thread, &held.end);
     for (line, was) in held.behind {
         pen.pass(line, &was);
     }

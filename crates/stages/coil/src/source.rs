@@ -112,7 +112,7 @@ impl Laid {
                 Line::On => {
                     ring = nozzle.at.iter().map(|at| Point::new(at.x, at.y)).collect();
                 }
-                Line::Off => match nozzle.feature {
+                Line::Off => match nozzle.feature() {
                     Feature::Edge(Side::Outer) | Feature::Loop(Side::Outer)
                         if ring.first() == ring.last() =>
                     {
@@ -126,7 +126,7 @@ impl Laid {
             }
             if let (Some(step), Some(from), true) = (line.as_move(), nozzle.at, nozzle.on) {
                 ring.push(Point::new(step.to.x, step.to.y));
-                if nozzle.feature == Feature::Infill {
+                if nozzle.feature() == Feature::Infill {
                     laid.infill += line.length(from) * nozzle.flow.f64();
                 }
             }

@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 use skein::{
-    Bead, End, Error, Facts, Feed, Layer, Line, Move, Notes, Nozzle, OrLag, Pen, Ratio, Settings, Skein,
-    Span, Stage, Stretch, Thread, spans,
+    Bead, End, Error, Facts, Feed, Layer, Line, Move, Notes, Nozzle, OrLag, Ratio, Settings, Skein, Stage,
+    Stretch, Thread,
 };
 
 #[cfg(test)]
@@ -83,24 +83,8 @@ struct Relief<'a> {
 
 impl Relief<'_> {
     fn layer(&self, layer: Layer, entering: &Nozzle, bead: Bead) -> Vec<Line> {
-        let mut was = *entering;
-        let mut pen = Pen::new(entering, layer.lines.len() * 3 / 2);
-        for span in spans(&layer.lines) {
-            let thread = match span {
-                Span::Thread(lines) => Thread::read(lines, &was),
-                _ => None,
-            };
-            if let Some(thread) = &thread {
-                pen.thread(&self.dwindled(thread.clone(), bead));
-            }
-            for line in span.lines() {
-                if thread.is_none() {
-                    pen.pass(line.clone(), &was);
-                }
-                was.follow(line);
-            }
-        }
-        pen.finish(&was)
+        layer
+            .rethread(entering, |thread, _, behind| (!behind.on).then(|| self.dwindled(thread.clone(), bead)))
     }
 
     /// The thread with its end cut into steps that become less (stages.md §7.7).
@@ -132,7 +116,7 @@ impl Relief<'_> {
     fn at_rate(&self, mut part: Thread, rate: f64) -> Thread {
         let kept = 1.0 - self.pent_up / self.slowdown;
         let share = if self.dwindle.slow_feed { kept } else { kept * rate };
-        for Stretch { step, flow } in &mut part.stretches {
+        for Stretch { step, flow, .. } in &mut part.stretches {
             *flow = Ratio::from_f64(flow.f64() * share).unwrap_or(*flow);
             if self.dwindle.slow_feed {
                 let slower = step.feed.and_then(|feed| Feed::from_mm_per_s(feed.mm_per_s() * rate));

@@ -24,7 +24,7 @@ fn thread(mm: i32) -> Thread {
     let to = Point3 { x: mm * 1000, y: 0, z: 200 };
     let step = Move { feed: Feed::new(960_000), ..Move::to(to) };
     let start = Point3 { x: 0, ..to };
-    Thread { start, stretches: vec![Stretch { step, flow: Ratio::ONE }] }
+    Thread { start, stretches: vec![Stretch { step, flow: Ratio::ONE, block: None }] }
 }
 
 /// stages_tests.md DW1: its flows are shares of 210, since M108 is a share here; and what it does to flow and feed at

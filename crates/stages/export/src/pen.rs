@@ -304,7 +304,7 @@ impl<'a> Pen<'a> {
     /// What the next bead is for and how wide it will be, when that is not what it was.
     #[inline]
     fn show_bead(&mut self) {
-        let (feature, flow) = (self.nozzle.feature, self.nozzle.flow);
+        let (feature, flow) = (self.nozzle.feature(), self.nozzle.flow);
         if self.style.comments != Comments::Layers
             || (self.shown, self.shown_flow) == (Some(feature), Some(flow))
         {

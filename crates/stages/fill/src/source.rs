@@ -68,7 +68,7 @@ impl Source {
                     let start = nozzle.at.ok_or_else(|| Error::new("a bead starts nowhere"))?;
                     let start = Point::new(start.x, start.y);
                     thread = Some(Strand {
-                        feature: nozzle.feature,
+                        feature: nozzle.feature(),
                         points: vec![start],
                         flows: Vec::new(),
                         closed: false,

@@ -107,7 +107,7 @@ fn beads(skein: &Skein) -> Vec<Vec<Bead>> {
         let mut beads: Vec<Bead> = Vec::new();
         for line in lines {
             if let (Line::On, Some(at)) = (line, nozzle.at) {
-                beads.push(Bead { feature: nozzle.feature, points: vec![(Point::new(at.x, at.y), 1.0)] });
+                beads.push(Bead { feature: nozzle.feature(), points: vec![(Point::new(at.x, at.y), 1.0)] });
             }
             if let (true, Some(step), Some(bead)) = (nozzle.on, line.as_move(), beads.last_mut()) {
                 bead.points.push((Point::new(step.to.x, step.to.y), nozzle.flow.f64()));

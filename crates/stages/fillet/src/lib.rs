@@ -81,7 +81,7 @@ impl Tool<'_> {
     fn layer(&self, layer: Layer, entering: &Nozzle) -> Vec<Line> {
         let mut was = *entering;
         let mut pen = Pen::new(entering, layer.lines.len() * 2);
-        for span in spans(&layer.lines) {
+        for span in spans(&layer.lines, entering.on) {
             let lines = span.lines();
             let thread = match span {
                 Span::Thread(_) => Thread::read(lines, &was),
@@ -91,14 +91,10 @@ impl Tool<'_> {
                 (Some(thread), _) => {
                     lines.iter().for_each(|line| was.follow(line));
                     self.thread(&mut pen, &thread);
+                    pen.end(&was);
                 }
                 (None, Span::Travel(_)) => self.travel(&mut pen, lines, &mut was),
-                (None, _) => {
-                    for line in lines {
-                        pen.pass(line.clone(), &was);
-                        was.follow(line);
-                    }
-                }
+                (None, _) => pen.pass_all(lines, &mut was),
             }
         }
         pen.finish(&was)
@@ -106,17 +102,15 @@ impl Tool<'_> {
 
     /// Lays a thread with its corners rounded; its two ends stay where they are.
     fn thread(&self, pen: &mut Pen, thread: &Thread) {
-        pen.on();
         let pieces: Vec<(Point3, &Stretch)> = thread.pieces().collect();
         for (index, (from, stretch)) in pieces.iter().enumerate() {
-            pen.flow(stretch.flow);
+            pen.start(stretch);
             let next = pieces.get(index + 1).map(|(_, next)| *next);
             match next.and_then(|next| Some((self.corner(*from, stretch, next)?, next))) {
                 Some((corner, next)) => self.round(pen, stretch, &corner, next),
                 None => pen.step(stretch.step),
             }
         }
-        pen.off();
     }
 
     /// The corner between two pieces, if it can be rounded. A piece that says what it pushes is left alone.
@@ -136,7 +130,7 @@ impl Tool<'_> {
     fn round(&self, pen: &mut Pen, stretch: &Stretch, corner: &Corner, next: &Stretch) {
         pen.step(Move { to: corner.before, ..stretch.step });
         let feed = self.corner_feed(stretch.step.feed, next.step.feed);
-        pen.flow(next.flow);
+        pen.ready(next);
         let (i, j) = corner.center;
         let center = match self.fillet.procedure {
             Procedure::Bevel => return pen.go(corner.after, feed),

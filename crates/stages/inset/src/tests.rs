@@ -37,7 +37,7 @@ fn craft(inset: &Inset, skein: Skein) -> (Vec<Bead>, Skein, Notes) {
     let mut beads: Vec<Bead> = Vec::new();
     for line in &skein.layers[0].lines {
         if let (Line::On, Some(at)) = (line, nozzle.at) {
-            beads.push((nozzle.feature, vec![Point::new(at.x, at.y)], Vec::new()));
+            beads.push((nozzle.feature(), vec![Point::new(at.x, at.y)], Vec::new()));
         }
         if let (true, Some(step), Some((_, points, flows))) = (nozzle.on, line.as_move(), beads.last_mut()) {
             points.push(Point::new(step.to.x, step.to.y));

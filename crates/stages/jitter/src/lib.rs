@@ -1,8 +1,6 @@
 #![doc = include_str!("../README.md")]
 
-use skein::{
-    Choice, Error, Layer, Line, Notes, Nozzle, Pen, Ratio, Settings, Skein, Span, Stage, Thread, spans,
-};
+use skein::{Choice, Error, Layer, Line, Notes, Nozzle, Ratio, Settings, Skein, Stage};
 
 #[cfg(test)]
 mod tests;
@@ -46,43 +44,39 @@ impl Stage for Jitter {
         }
         let spread = skein.facts()?.bead_width()?.um() * self.over_bead_width.f64();
         let nozzles = skein.nozzles();
-        skein.rewrite(notes, |index, layer, _| Ok(self.turn(index, layer, &nozzles[index], spread)))
+        skein
+            .rewrite(notes, |index, layer, notes| Ok(self.turn(index, layer, &nozzles[index], spread, notes)))
     }
 }
 
 impl Jitter {
     /// Turns every closed wall of a layer.
-    fn turn(&self, index: usize, layer: Layer, entering: &Nozzle, spread: f64) -> Vec<Line> {
+    fn turn(
+        &self,
+        index: usize,
+        layer: Layer,
+        entering: &Nozzle,
+        spread: f64,
+        notes: &mut Notes,
+    ) -> Vec<Line> {
         let share = self.share(index);
-        let mut was = *entering;
-        let mut pen = Pen::new(entering, layer.lines.len() + 16);
-        for span in spans(&layer.lines) {
-            let turned = match span {
-                Span::Thread(lines) if was.feature.is_wall() => {
-                    Thread::read(lines, &was).filter(Thread::is_closed).map(|wall| {
-                        let length = wall.length();
-                        let shift = match self.seams {
-                            Seams::Around => share * length,
-                            Seams::Golden | Seams::Random => spread * (share - 0.5),
-                        };
-                        let (before, after) = wall.split(shift.rem_euclid(length));
-                        after.join(before)
-                    })
-                }
-                _ => None,
+        let mut mixed = false;
+        let lines = layer.rethread(entering, |thread, before, behind| {
+            let free = thread.is_wall() && !before.on && !behind.on;
+            mixed |= !free && thread.has_wall();
+            let wall = Some(thread).filter(|_| free)?;
+            let length = wall.length();
+            let shift = match self.seams {
+                Seams::Around => share * length,
+                Seams::Golden | Seams::Random => spread * (share - 0.5),
             };
-            if let Some(wall) = &turned {
-                pen.arrive(wall.start);
-                pen.thread(wall);
-            }
-            for line in span.lines() {
-                if turned.is_none() {
-                    pen.pass(line.clone(), &was);
-                }
-                was.follow(line);
-            }
+            let (first, second) = wall.clone().split(shift.rem_euclid(length));
+            Some(second.join(first))
+        });
+        if mixed {
+            notes.layer(index, "walls that `join` has made one thread with others have no seam to move");
         }
-        pen.finish(&was)
+        lines
     }
 
     /// How far the seam of a layer goes, as a share of the spread.

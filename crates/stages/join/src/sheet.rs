@@ -113,7 +113,7 @@ impl Sheet {
                 Line::Off => {
                     if let Some((points, flows)) = thread.take() {
                         let home = island.as_mut().unwrap_or(&mut loose);
-                        home.strands.extend(Strand::new(nozzle.feature, points, &flows));
+                        home.strands.extend(Strand::new(nozzle.feature(), points, &flows));
                     }
                 }
                 Line::Move(step) => {
@@ -176,7 +176,7 @@ impl Sheet {
         if self.kept.is_some() {
             return self.head;
         }
-        let nozzle = Nozzle { flow: flows.0, ..Nozzle::default() };
+        let nozzle = Nozzle { flow: flows.0, on: plan.flows_on(), ..Nozzle::default() };
         let steps: usize = plan.paths.iter().flatten().map(|path| path.steps.len() + 6).sum();
         let others: usize = self.islands.iter().map(|island| island.lines.len() + 2).sum();
         let mut pen = Pen::new(&nozzle, self.head.len() + self.tail.len() + steps + others);

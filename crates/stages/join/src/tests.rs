@@ -320,11 +320,12 @@ proptest! {
         prop_assert_eq!(&joined, &again);
         let (mut old, mut new) = (Nozzle::default(), Nozzle::default());
         for (before, after) in before.layers.iter().zip(&joined.layers) {
+            let flowing = new.on;
             let (old, new) = (clay_of(&before.lines, &mut old), clay_of(&after.lines, &mut new));
             // A rise may lay a bead or two more.
             let most = if through { 2.0 * SPACING } else { old * 2e-3 };
             prop_assert!((new - old).abs() <= most, "{} {}", new, old);
-            let threads = spans(&after.lines).filter(|span| matches!(span, Span::Thread(_))).count();
+            let threads = spans(&after.lines, flowing).filter(|span| matches!(span, Span::Thread(_))).count();
             prop_assert_eq!(threads, 1);
             for line in &after.lines {
                 if let Some(step) = line.as_move() {

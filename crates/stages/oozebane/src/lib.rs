@@ -128,13 +128,13 @@ impl Ways {
     }
 }
 
-/// What lies around the beads of a layer.
+/// What lies around a bead, or around the beads of a layer.
 struct Travels {
-    /// The travel of the layers below that leads to the first bead, in microns.
+    /// The travel that leads to the bead; of a layer, the part of it that the layers below have. In microns.
     ahead: f64,
-    /// The travel of the layers above that follows the last bead.
+    /// The travel that follows it; of a layer, the part that the layers above have.
     behind: f64,
-    /// Whether the first bead of the layer is the first of all.
+    /// Whether it is the first of all.
     first: bool,
 }
 
@@ -153,32 +153,30 @@ struct Valve<'a> {
 }
 
 impl Valve<'_> {
-    fn layer(&self, layer: Layer, entering: &Nozzle, ends: Travels) -> Vec<Line> {
-        let spans: Vec<Span<'_>> = spans(&layer.lines).collect();
-        let after = self.after(&spans, entering, ends.behind);
+    fn layer(&self, layer: Layer, entering: &Nozzle, around: Travels) -> Vec<Line> {
+        let spans: Vec<Span<'_>> = spans(&layer.lines, entering.on).collect();
+        let after = self.after(&spans, entering, around.behind);
         let mut was = *entering;
         let mut pen = Pen::new(entering, layer.lines.len() * 3 / 2);
-        let mut travelled = ends.ahead;
-        let mut first = ends.first;
+        let mut travelled = around.ahead;
+        let mut first = around.first;
         for (span, behind) in spans.iter().zip(after) {
             let thread = match span {
                 Span::Thread(lines) => Thread::read(lines, &was),
                 _ => None,
             };
-            if let Some(thread) = &thread {
-                self.thread(&mut pen, thread, travelled, behind, first);
-            }
-            for line in span.lines() {
-                if let (false, false, Some(from)) = (was.on, *line == Line::On, was.at) {
-                    travelled += line.length(from);
+            let before = was;
+            match thread {
+                Some(thread) => {
+                    span.lines().iter().for_each(|line| was.follow(line));
+                    let travels = Travels { ahead: travelled, behind, first };
+                    self.thread(&mut pen, &thread, &travels, [&before, &was]);
                 }
-                if thread.is_none() {
-                    pen.pass(line.clone(), &was);
-                }
-                was.follow(line);
+                None => pen.pass_all(span.lines(), &mut was),
             }
-            if matches!(span, Span::Thread(_)) {
-                (travelled, first) = (0.0, false);
+            match span {
+                Span::Thread(_) => (travelled, first) = (0.0, false),
+                _ => travelled += before.way(span.lines()),
             }
         }
         pen.finish(&was)
@@ -190,13 +188,8 @@ impl Valve<'_> {
         let lengths: Vec<f64> = spans
             .iter()
             .map(|span| {
-                let mut length = 0.0;
-                for line in span.lines() {
-                    if let (false, Some(from)) = (nozzle.on, nozzle.at) {
-                        length += line.length(from);
-                    }
-                    nozzle.follow(line);
-                }
+                let length = if matches!(span, Span::Thread(_)) { 0.0 } else { nozzle.way(span.lines()) };
+                span.lines().iter().for_each(|line| nozzle.follow(line));
                 length
             })
             .collect();
@@ -209,8 +202,8 @@ impl Valve<'_> {
         after
     }
 
-    /// Lays a thread that lies behind a travel of one length and before one of another, in microns.
-    fn thread(&self, pen: &mut Pen, thread: &Thread, before: f64, behind: f64, first: bool) {
+    /// Lays a thread between two travels. Where clay flows already in front of it or goes on behind it, that end stays.
+    fn thread(&self, pen: &mut Pen, thread: &Thread, travels: &Travels, [before, behind]: [&Nozzle; 2]) {
         let oozebane = self.oozebane;
         let feed = thread.stretches.first().and_then(|piece| piece.step.feed);
         let speed = |feed: Option<Feed>| feed.map_or(1.0, Feed::mm_per_s);
@@ -218,17 +211,20 @@ impl Valve<'_> {
         let ratio = self.operating.map_or(1.0, |usual| speed(feed.or(Some(usual))) / usual.mm_per_s());
         let share = |way: f64, least: Micron| if least.0 > 0 { (way / least.um()).min(1.0) } else { 1.0 };
         let (start, stop) = (
-            share(before, oozebane.minimum_distance_for_early_startup),
-            share(behind, oozebane.minimum_distance_for_early_shutdown),
+            share(travels.ahead, oozebane.minimum_distance_for_early_startup),
+            share(travels.behind, oozebane.minimum_distance_for_early_shutdown),
         );
         let length = thread.length();
         // What follows is a time; a distance that is set stays one.
-        let off = self.off * stop * if oozebane.early_shutdown_distance == OrLag::Lag { ratio } else { 1.0 };
+        let lag = if oozebane.early_shutdown_distance == OrLag::Lag { ratio } else { 1.0 };
+        let off = if behind.on { 0.0 } else { self.off * stop * lag };
         let up = oozebane.after_startup_distance.um() * start * ratio;
-        self.start_early(pen, thread, before, first, ratio);
+        if !before.on {
+            self.start_early(pen, thread, travels, ratio);
+        }
         let steps = f64::from(oozebane.slowdown_startup_steps);
         let slow = oozebane.ends == Ends::Slow;
-        let rising = if slow && length > 1.03 * (off + up) {
+        let rising = if slow && !before.on && length > 1.03 * (off + up) {
             Ramp::up((start * steps) as u32, up)
         } else {
             Ramp::none()
@@ -239,17 +235,20 @@ impl Valve<'_> {
             (thread.clone(), nothing(thread))
         };
         rising.lay(pen, laid);
-        pen.off();
+        if !behind.on {
+            pen.off();
+        }
         let falling = if slow { Ramp::down((stop * steps) as u32, off) } else { Ramp::none() };
         falling.run(pen, left);
+        pen.end(behind);
     }
 
     /// Starts the clay on the travel that has just been written, before the thread begins.
-    fn start_early(&self, pen: &mut Pen, thread: &Thread, before: f64, first: bool, ratio: f64) {
-        let early = if first {
+    fn start_early(&self, pen: &mut Pen, thread: &Thread, travels: &Travels, ratio: f64) {
+        let early = if travels.first {
             self.first_early
         } else if self.decay > 0.0 {
-            self.early * (1.0 - libm::exp(-before / self.decay))
+            self.early * (1.0 - libm::exp(-travels.ahead / self.decay))
         } else {
             self.early
         };
@@ -264,8 +263,7 @@ impl Valve<'_> {
             let length = Move::to(travel.to).length(from);
             let on = along(travel.to, from, early.min(length));
             pen.step(Move { to: on, ..travel });
-            pen.flow(first.flow);
-            pen.on();
+            pen.start(first);
             pen.go(travel.to, first.step.feed.or(self.operating));
         }
     }

@@ -40,12 +40,8 @@ impl Ramp {
 
     /// Lays a thread whose beginning has these speeds.
     pub(crate) fn lay(&self, pen: &mut Pen, thread: Thread) {
-        if let Some(first) = thread.stretches.first() {
-            pen.flow(first.flow);
-            pen.on();
-        }
         self.each(thread, |piece| {
-            pen.flow(piece.flow);
+            pen.start(&piece);
             pen.step(piece.step);
         });
     }

@@ -180,7 +180,7 @@ fn thin_parts(layer: &Layer, facts: &Facts) -> Result<Vec<Ring>, Error> {
         let from = nozzle.at;
         nozzle.follow(line);
         if let (true, Some(from), Some(step)) =
-            (nozzle.on && nozzle.feature == Feature::Middle, from, line.as_move())
+            (nozzle.on && nozzle.feature() == Feature::Middle, from, line.as_move())
         {
             let width = bead.section.width(bead.area() * nozzle.flow.f64(), bead.height.mm()) * 1000.0;
             let flat = |at: Point3| Point::new(at.x, at.y);

@@ -114,7 +114,8 @@ fn beads(lines: &[Line], wanted: Feature) -> Vec<[f64; 5]> {
     for line in lines {
         let from = nozzle.at;
         nozzle.follow(line);
-        if let (true, Some(from), Some(step)) = (nozzle.on && nozzle.feature == wanted, from, line.as_move())
+        if let (true, Some(from), Some(step)) =
+            (nozzle.on && nozzle.feature() == wanted, from, line.as_move())
         {
             let mm = |microns: i32| Micron(microns).mm();
             beads.push([mm(from.x), mm(from.y), mm(step.to.x), mm(step.to.y), mm(step.to.z)]);
@@ -456,7 +457,7 @@ fn moves_keep_their_speed_and_lines_of_the_potter_stand_around_support() {
         let mut seen = Vec::new();
         for line in skein.lines() {
             nozzle.follow(line);
-            if line.as_move().is_some() && nozzle.on && nozzle.feature != Feature::Support {
+            if line.as_move().is_some() && nozzle.on && nozzle.feature() != Feature::Support {
                 seen.push((nozzle.feed.expect("a feed").get(), nozzle.flow));
             }
         }

@@ -139,6 +139,7 @@ fn laid(ring: Ring, thread: &Thread, flow: Ratio) -> Thread {
     let start = points.first().map_or(thread.start, place);
     let ends = points.iter().skip(1).chain(points.first());
     let feed = thread.stretches.first().and_then(|first| first.step.feed);
-    let step = |at| Stretch { step: Move { feed, ..Move::to(place(at)) }, flow };
+    let block = thread.stretches.first().and_then(|first| first.block);
+    let step = |at| Stretch { step: Move { feed, ..Move::to(place(at)) }, flow, block };
     Thread { start, stretches: ends.map(step).collect() }
 }

@@ -47,10 +47,15 @@ impl Stage for Skin {
         let widths = Widths { wall: facts.bead_width()?.um(), infill: facts.infill_width()?.um() };
         let nozzles = skein.nozzles();
         let highest = skein.highest();
-        let top = skein.layers.iter().rposition(|layer| layer.lines.contains(&Line::On));
+        let beads = |(layer, nozzle): (&Layer, &Nozzle)| nozzle.on || layer.lines.contains(&Line::On);
+        let top = skein.layers.iter().zip(&nozzles).rposition(beads);
         skein.rewrite(notes, |index, layer, notes| {
+            if index < usize::try_from(self.layers_from).unwrap_or(usize::MAX) {
+                return Ok(layer.lines);
+            }
             // A bead that goes on from layer to layer has no place for others.
-            if nozzles[index].on || index < usize::try_from(self.layers_from).unwrap_or(usize::MAX) {
+            if nozzles[index].on {
+                notes.layer(index, "stays undivided: clay goes on there from the layer below, by `coil` or `join`");
                 return Ok(layer.lines);
             }
             // Beside what stands higher than its foot already, as behind `tower`, a bead that lies lower than the layer
@@ -67,7 +72,8 @@ impl Stage for Skin {
             if whole {
                 notes.layer(
                     index,
-                    "beads that are open, too narrow or not level were not divided as was asked",
+                    "beads that are open, too narrow, not level or joined with others by `join` were not divided as was \
+                     asked",
                 );
             }
             Ok(lines)
@@ -110,7 +116,7 @@ impl Knife<'_> {
         let mut was = *entering;
         let mut pen = Pen::new(entering, layer.lines.len() * 2);
         let mut fresh = true;
-        for span in spans(&layer.lines) {
+        for span in spans(&layer.lines, entering.on) {
             if fresh && is_of_a_bead(&span) {
                 fresh = false;
                 lay_lower(&mut pen, &cuts, self.skin.hop_when_extruding_infill);
@@ -119,21 +125,19 @@ impl Knife<'_> {
                 Span::Thread(_) => threads.next().and_then(Option::as_ref),
                 _ => None,
             };
-            if let Some(threads) = cut.and_then(|cut| cut.heights.last()) {
-                for (number, thread) in threads.iter().enumerate() {
-                    if number == 0 {
-                        pen.arrive(thread.start);
-                    } else {
-                        pen.go(thread.start, was.feed);
-                    }
-                    pen.thread(thread);
+            let Some(threads) = cut.and_then(|cut| cut.heights.last()) else {
+                pen.pass_all(span.lines(), &mut was);
+                continue;
+            };
+            let feed = was.feed;
+            span.lines().iter().for_each(|line| was.follow(line));
+            for (number, thread) in threads.iter().enumerate() {
+                if number == 0 {
+                    pen.arrive(thread.start);
+                } else {
+                    pen.go(thread.start, feed);
                 }
-            }
-            for line in span.lines() {
-                if cut.is_none() {
-                    pen.pass(line.clone(), &was);
-                }
-                was.follow(line);
+                pen.thread(thread, &was);
             }
         }
         pen.finish(&was)
@@ -142,7 +146,7 @@ impl Knife<'_> {
     /// The threads of a layer as they are cut; nothing for one that stays.
     fn cuts(&self, lines: &[Line], mut was: Nozzle, whole: &mut bool) -> Vec<Option<Cut>> {
         let mut cuts = Vec::new();
-        for span in spans(lines) {
+        for span in spans(lines, was.on) {
             if let Span::Thread(lines) = span {
                 cuts.push(self.cut(lines, &was, whole));
             }
@@ -152,8 +156,29 @@ impl Knife<'_> {
     }
 
     fn cut(&self, lines: &[Line], was: &Nozzle, whole: &mut bool) -> Option<Cut> {
+        let Some(thread) = Thread::read(lines, was) else {
+            *whole |= lines.iter().any(|line| matches!(line, Line::Arc(_)));
+            return None;
+        };
+        let (division, width) = thread.stretches.iter().find_map(|piece| self.division(piece.feature()))?;
+        // One that climbs, or goes on as another bead, cannot be laid twice.
+        let block = thread.stretches.first().and_then(|first| first.block);
+        let plain = |piece: &skein::Stretch| {
+            piece.block == block && piece.step.extrusion.is_none() && piece.step.to.z == thread.start.z
+        };
+        if was.on || !thread.stretches.iter().all(plain) {
+            *whole = true;
+            return None;
+        }
+        let (heights, as_asked) = divided(&thread, division, self.height, width);
+        *whole |= !as_asked;
+        Some(Cut { feature: was.feature(), was: *was, heights })
+    }
+
+    /// How beads for something are divided, and their width in microns; nothing when they are not.
+    fn division(&self, feature: Feature) -> Option<(Division, f64)> {
         let skin = self.skin;
-        let (division, width) = match was.feature {
+        let (division, width) = match feature {
             Feature::Edge(_) => {
                 let division = Division {
                     vertical: skin.vertical_wall_divisions,
@@ -172,20 +197,7 @@ impl Knife<'_> {
             }
             _ => return None,
         };
-        if division.vertical == 1 && division.horizontal == 1 {
-            return None;
-        }
-        let thread = Thread::read(lines, was).filter(|thread| {
-            let quiet = |piece: &skein::Stretch| piece.step.extrusion.is_none();
-            thread.stretches.iter().all(|piece| quiet(piece) && piece.step.to.z == thread.start.z)
-        });
-        let Some(thread) = thread else {
-            *whole = true;
-            return None;
-        };
-        let (heights, as_asked) = divided(&thread, division, self.height, width);
-        *whole |= !as_asked;
-        Some(Cut { feature: was.feature, was: *was, heights })
+        (division.vertical > 1 || division.horizontal > 1).then_some((division, width))
     }
 }
 
@@ -222,7 +234,7 @@ fn lay_lower(pen: &mut Pen, cuts: &[Option<Cut>], hop_to_infill: bool) {
             pen.go(Point3 { z, ..thread.start }, cut.was.feed);
         }
         pen.go(thread.start, cut.was.feed);
-        pen.thread(thread);
+        pen.thread(thread, &Nozzle { on: false, ..*pen.nozzle() });
         pen.push(close);
     }
 }

@@ -57,12 +57,12 @@ type Laid = (Feature, i32, i32, f64, (i32, i32));
 fn beads(skein: &Skein, layer: usize) -> Vec<Laid> {
     let mut nozzle = skein.nozzles()[layer];
     let mut beads = Vec::new();
-    for span in spans(&skein.layers[layer].lines) {
+    for span in spans(&skein.layers[layer].lines, false) {
         if let Span::Thread(lines) = span {
             let thread = Thread::read(lines, &nozzle).expect("a thread");
             let flow = thread.stretches[0].flow.0;
             let start = (thread.start.x, thread.start.y);
-            beads.push((nozzle.feature, thread.start.z, flow, thread.length(), start));
+            beads.push((nozzle.feature(), thread.start.z, flow, thread.length(), start));
         }
         span.lines().iter().for_each(|line| nozzle.follow(line));
     }
@@ -136,8 +136,8 @@ fn top_infill(stage: &Skin) -> Vec<Thread> {
     let done = craft(stage, print(2));
     let mut nozzle = done.nozzles()[1];
     let mut threads = Vec::new();
-    for span in spans(&done.layers[1].lines) {
-        if let (Span::Thread(lines), Feature::Infill) = (span, nozzle.feature) {
+    for span in spans(&done.layers[1].lines, false) {
+        if let (Span::Thread(lines), Feature::Infill) = (span, nozzle.feature()) {
             threads.push(Thread::read(lines, &nozzle).expect("a thread"));
         }
         span.lines().iter().for_each(|line| nozzle.follow(line));
@@ -205,7 +205,7 @@ fn the_way_to_lower_infill_can_lead_over_the_layer() {
             was.follow(line);
             if let (false, Some(from), Some(to)) = (was.on, before.at, line.as_move().map(|step| step.to))
                 && to.z == 400
-                && was.feature == Feature::Infill
+                && was.feature() == Feature::Infill
             {
                 lower.push((from.z, from.x != to.x || from.y != to.y));
             }

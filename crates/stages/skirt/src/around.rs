@@ -25,7 +25,7 @@ pub(crate) fn obstacles(layers: &[Layer], facts: &Facts) -> Result<Vec<Ring>, Er
         for line in &layer.lines {
             let from = nozzle.at;
             nozzle.follow(line);
-            let built = nozzle.on && matches!(nozzle.feature, Feature::Raft | Feature::Support);
+            let built = nozzle.on && matches!(nozzle.feature(), Feature::Raft | Feature::Support);
             if let (true, Some(from), Some(step)) = (built, from, line.as_move()) {
                 let width = bead.section.width(bead.area() * nozzle.flow.f64(), bead.height.mm()) * 1000.0;
                 let flat = |at: Point3| Point::new(at.x, at.y);

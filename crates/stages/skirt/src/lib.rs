@@ -108,7 +108,7 @@ impl Site {
         let nominal = facts.bead()?.of_height(layer.height(facts)?);
         // A skirt around a raft has beads like the raft.
         let flow = match lead.first {
-            Some(first) if first.feature == Feature::Raft => first.flow,
+            Some(first) if first.feature() == Feature::Raft => first.flow,
             _ => nozzle.flow,
         };
         let width = nominal.section.width(nominal.area() * flow.f64(), nominal.height.mm());

@@ -74,11 +74,11 @@ fn threads(lines: &[Line]) -> Vec<Vec<(f64, f64)>> {
     let mut threads: Vec<Vec<(f64, f64)>> = Vec::new();
     for line in lines {
         let at = |nozzle: &Nozzle| nozzle.at.map(|at| (Micron(at.x).mm(), Micron(at.y).mm()));
-        if *line == Line::On && nozzle.feature == Feature::Skirt {
+        if *line == Line::On && nozzle.feature() == Feature::Skirt {
             threads.push(at(&nozzle).into_iter().collect());
         }
         nozzle.follow(line);
-        if nozzle.on && nozzle.feature == Feature::Skirt && line.as_move().is_some() {
+        if nozzle.on && nozzle.feature() == Feature::Skirt && line.as_move().is_some() {
             threads.last_mut().expect("a thread").extend(at(&nozzle));
         }
     }
@@ -226,7 +226,7 @@ fn clay_flows_on_into_the_part() {
         for line in skein.lines() {
             let from = nozzle.at;
             nozzle.follow(line);
-            if nozzle.on && nozzle.feature != Feature::Skirt && line.as_move().is_some() {
+            if nozzle.on && nozzle.feature() != Feature::Skirt && line.as_move().is_some() {
                 beads.push((from, nozzle.at, nozzle.feed));
             }
         }

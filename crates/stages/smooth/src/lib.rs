@@ -4,8 +4,8 @@
 mod tests;
 
 use skein::{
-    Error, Feature, Feed, Layer, Line, Move, Notes, Nozzle, Pen, Point3, Ratio, Settings, Skein, Span, Stage,
-    Stretch, Thread, along, spans,
+    Error, Feature, Feed, Layer, Line, Move, Notes, Nozzle, Point3, Ratio, Settings, Skein, Stage, Stretch,
+    Thread, along,
 };
 
 /// Replaces short jags of the infill by straight lines.
@@ -43,26 +43,7 @@ impl Stage for Smooth {
 
 /// A layer with the jags of its infill made straight; `most` is the largest shortening in microns.
 fn smooth(layer: Layer, entering: &Nozzle, most: f64) -> Vec<Line> {
-    let mut was = *entering;
-    let mut pen = Pen::new(entering, layer.lines.len());
-    for span in spans(&layer.lines) {
-        let thread = match span {
-            Span::Thread(lines) if was.feature == Feature::Infill => {
-                Thread::read(lines, &was).and_then(|thread| smoothed(&thread, most))
-            }
-            _ => None,
-        };
-        if let Some(thread) = &thread {
-            pen.thread(thread);
-        }
-        for line in span.lines() {
-            if thread.is_none() {
-                pen.pass(line.clone(), &was);
-            }
-            was.follow(line);
-        }
-    }
-    pen.finish(&was)
+    layer.rethread(entering, |thread, _, _| smoothed(thread, most))
 }
 
 /// The thread with a line from the middle of each stroke to the middle of the next wherever that is short enough; nothing
@@ -104,8 +85,9 @@ impl Jag {
     /// Nothing when the pieces are no strokes, or the shortcut would be too short or too long.
     fn of(pieces: &[(Point3, Stretch)], most: f64) -> Option<Self> {
         let [first, joint, second] = pieces else { return None };
-        let quiet = pieces.iter().all(|(_, piece)| piece.step.extrusion.is_none());
-        if !quiet || cosine(first, second)? > BACK {
+        let is_infill =
+            |piece: &Stretch| piece.feature() == Feature::Infill && piece.step.extrusion.is_none();
+        if !pieces.iter().all(|(_, piece)| is_infill(piece)) || cosine(first, second)? > BACK {
             return None;
         }
         let (from, to) = (middle(first), middle(second));
@@ -122,7 +104,7 @@ impl Jag {
             ways.iter().map(|(piece, share)| Some(length(piece) * share / feed(&piece.1)?)).sum();
         let feed = time.and_then(|time| Feed::from_mm_per_s(straight / time)).or(second.1.step.feed);
         let flow = Ratio::from_f64(clay / straight)?;
-        Some(Self { from, line: Stretch { step: Move { feed, ..Move::to(to) }, flow } })
+        Some(Self { from, line: Stretch { step: Move { feed, ..Move::to(to) }, flow, ..second.1 } })
     }
 }
 

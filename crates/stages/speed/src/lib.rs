@@ -153,7 +153,7 @@ impl Speed {
                 }
                 Line::Close(Tag::Layer) => nozzle.flow,
                 line if nozzle.on && line.as_move().is_some() => {
-                    let share = nozzle.flow.f64() * self.flow(layer, nozzle.feature, bridge);
+                    let share = nozzle.flow.f64() * self.flow(layer, nozzle.feature(), bridge);
                     Ratio::from_f64(share).unwrap_or(nozzle.flow)
                 }
                 _ => said,
@@ -196,7 +196,7 @@ impl Speed {
 
     /// The feed of a bead. All shares are multiplied first and rounded once.
     fn bead(&self, layer: usize, nozzle: &Nozzle, bridge: bool) -> Result<Feed, Error> {
-        let is_edge = matches!(nozzle.feature, Feature::Edge(_));
+        let is_edge = matches!(nozzle.feature(), Feature::Edge(_));
         let mut share = 1.0;
         if layer == 0 {
             share *= self.first_layer.f64();

@@ -138,8 +138,8 @@ fn lay(
     let mut was = *entering;
     let mut pen = Pen::new(entering, layer.lines.len() + 64);
     let mut blob = first;
-    for span in spans(&layer.lines) {
-        if let Span::Thread(lines) = span {
+    for span in spans(&layer.lines, entering.on) {
+        if let (Span::Thread(lines), false) = (span, was.on) {
             if let (Some(blob), Some(thread)) = (blob, Thread::read(lines, &was))
                 && let Some(beside) = room.beside(&thread, blob.length)
             {

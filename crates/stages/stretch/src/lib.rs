@@ -5,8 +5,7 @@ mod tests;
 mod way;
 
 use skein::{
-    Error, Feature, Layer, Line, Notes, Nozzle, Pen, Point3, Ratio, Settings, Side, Skein, Span, Stage,
-    Thread, spans,
+    Error, Feature, Layer, Line, Move, Notes, Nozzle, Point3, Ratio, Settings, Side, Skein, Stage, Thread,
 };
 use way::Way;
 
@@ -49,30 +48,11 @@ impl Stage for Stretch {
 
 impl Stretch {
     fn layer(&self, layer: Layer, entering: &Nozzle, width: f64) -> Vec<Line> {
-        let mut was = *entering;
-        let mut pen = Pen::new(entering, layer.lines.len() + 16);
-        for span in spans(&layer.lines) {
-            let most = width * self.most(was.feature);
-            let thread = match span {
-                Span::Thread(lines) if most > 0.0 => Thread::read(lines, &was),
-                _ => None,
-            };
-            // A thread without a bend stays as it was written.
-            let stretched = thread.and_then(|thread| {
-                Some(self.stretched(&thread, most, width)).filter(|stretched| *stretched != thread)
-            });
-            if let Some(stretched) = &stretched {
-                pen.arrive(stretched.start);
-                pen.thread(stretched);
-            }
-            for line in span.lines() {
-                if stretched.is_none() {
-                    pen.pass(line.clone(), &was);
-                }
-                was.follow(line);
-            }
-        }
-        pen.finish(&was)
+        // A thread without a bend stays as it was written.
+        layer.rethread(entering, |thread, before, behind| {
+            let closed = thread.is_closed() && !before.on && !behind.on;
+            Some(self.stretched(thread, closed, width)).filter(|stretched| stretched != thread)
+        })
     }
 
     fn most(&self, feature: Feature) -> f64 {
@@ -85,33 +65,52 @@ impl Stretch {
         .f64()
     }
 
-    /// The thread with each of its points moved towards the outside of the bend that it lies on. A closed thread stays
-    /// closed, since its two ends are one point; the ends of an open one stay.
-    fn stretched(&self, thread: &Thread, most: f64, width: f64) -> Thread {
-        let way = Way::new(thread);
+    /// The thread with its bends made larger, those of each kind of bead by themselves: where one kind goes over into
+    /// another, the thread stays where it is.
+    fn stretched(&self, thread: &Thread, closed: bool, width: f64) -> Thread {
+        let mut stretched =
+            Thread { start: thread.start, stretches: Vec::with_capacity(thread.stretches.len()) };
+        let mut start = thread.start;
+        let of_one_kind = |one: &skein::Stretch, other: &skein::Stretch| one.block == other.block;
+        for run in thread.stretches.chunk_by(of_one_kind) {
+            let ends = run.iter().map(|piece| piece.step.to);
+            let points: Vec<Point3> = std::iter::once(start).chain(ends).collect();
+            start = points[run.len()];
+            let closed = closed && run.len() == thread.stretches.len();
+            let most = width * run.first().map_or(0.0, |piece| self.most(piece.feature()));
+            let points = if most > 0.0 { self.moved(points, closed, most, width) } else { points };
+            if closed {
+                stretched.start = points[0];
+            }
+            let moved = run.iter().zip(&points[1..]);
+            stretched.stretches.extend(
+                moved.map(|(piece, to)| skein::Stretch { step: Move { to: *to, ..piece.step }, ..*piece }),
+            );
+        }
+        stretched
+    }
+
+    /// The points of a way, each moved towards the outside of the bend that it lies on, by so much at most. A closed way
+    /// stays closed, since its two ends are one point; the ends of an open one stay.
+    fn moved(&self, points: Vec<Point3>, closed: bool, most: f64, width: f64) -> Vec<Point3> {
+        let way = Way::new(&points, closed);
         let limit = self.cross_limit_over_bead_width.f64() * width;
         let bends = way.bends(self.from_distance_over_bead_width.f64() * width);
-        let moved: Vec<Point3> = bends
+        let mut moved: Vec<Point3> = bends
             .iter()
+            .zip(&points)
             .enumerate()
-            .map(|(index, bend)| {
+            .map(|(index, (bend, at))| {
                 let (before, behind) = way.neighbours(index);
                 let bend = (bend.0 * STRENGTH, bend.1 * STRENGTH);
                 let bend = limited(limited(bend, before, limit), behind, limit);
                 let shift = most / libm::hypot(bend.0, bend.1).max(1.0);
-                let at = way.point(index);
-                Point3 { x: step(at.x, bend.0 * shift), y: step(at.y, bend.1 * shift), ..at }
+                Point3 { x: step(at.x, bend.0 * shift), y: step(at.y, bend.1 * shift), ..*at }
             })
             .collect();
-        let mut stretched = thread.clone();
-        let Some(first) = moved.first() else { return stretched };
-        stretched.start = *first;
-        // The last point of a closed thread is its first.
-        let ends = moved.iter().skip(1).chain(std::iter::once(first));
-        for (piece, to) in stretched.stretches.iter_mut().zip(ends) {
-            piece.step.to = *to;
-        }
-        stretched
+        // The last point of a closed way is its first.
+        moved.extend(moved.first().copied().filter(|_| closed));
+        moved
     }
 }
 

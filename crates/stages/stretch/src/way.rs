@@ -1,43 +1,38 @@
-//! Where a thread is at a length from its start, and how it bends there, in microns and seen from above.
+//! Where a way is at a length from its start, and how it bends there, in microns and seen from above.
 
-use skein::{Point3, Thread};
+use skein::Point3;
 
-/// A thread with the length up to each of its points.
-pub(crate) struct Way {
+/// A way with the length up to each of its points.
+pub(crate) struct Way<'a> {
     /// All points; the last of a closed thread is its first.
-    points: Vec<Point3>,
+    points: &'a [Point3],
     lengths: Vec<f64>,
     closed: bool,
 }
 
 /// A place that goes on along a way and never back, so that all of a way takes as long as the way is.
 struct Cursor<'a> {
-    way: &'a Way,
+    way: &'a Way<'a>,
     /// The side that it is on.
     side: usize,
     /// The length of the turns that it has made around a closed way.
     turned: f64,
 }
 
-impl Way {
-    pub(crate) fn new(thread: &Thread) -> Self {
-        let ends = thread.stretches.iter().map(|piece| piece.step.to);
-        let points: Vec<Point3> = std::iter::once(thread.start).chain(ends).collect();
+impl<'a> Way<'a> {
+    /// The way over such points; the last of a closed one is its first.
+    pub(crate) fn new(points: &'a [Point3], closed: bool) -> Self {
         let mut lengths = vec![0.0; points.len()];
         for index in 1..points.len() {
             let (x, y) = between(points[index - 1], points[index]);
             lengths[index] = lengths[index - 1] + libm::hypot(x, y);
         }
-        Self { points, lengths, closed: thread.is_closed() }
+        Self { points, lengths, closed }
     }
 
     /// The points that can be moved by themselves: the end of a closed way is its start.
     fn count(&self) -> usize {
         self.points.len() - usize::from(self.closed)
-    }
-
-    pub(crate) fn point(&self, index: usize) -> Point3 {
-        self.points[index]
     }
 
     /// The ways from a point to the one before and the one behind; none at an open end.

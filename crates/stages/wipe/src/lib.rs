@@ -99,10 +99,7 @@ impl Way<'_> {
             }
             let before = was;
             was.follow(&line);
-            // Clay that came from the layer below has been started again already.
-            if !(wiped && before.on && line == Line::On) {
-                pen.pass(line, &before);
-            }
+            pen.pass(line, &before);
         }
         pen.finish(&was)
     }

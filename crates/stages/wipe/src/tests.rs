@@ -73,16 +73,3 @@ fn a_brush_in_the_print_is_refused() {
     let inside = Wipe { wipe: Point3 { x: 10_000, y: 50_000, z: 100 }, ..wipe() };
     assert!(inside.craft(layers(1, LAYER), &mut Notes::default()).is_err());
 }
-
-/// Found by fuzzing: clay that comes from the layer below and is said to start where the layer says so, too, was started
-/// twice.
-#[test]
-fn clay_that_has_been_started_again_is_not_started_once_more() {
-    let text = "(<layer> 0.2 )\nG1 X10 Y50 Z0.2\nM101\nG1 X20 Y50 Z0.2\nM103\n(</layer>)";
-    let mut skein = layers(1, text);
-    skein.head.push(Reader::default().line(b"G1 X0 Y0 Z0.2").expect("a line"));
-    skein.head.push(Line::On);
-    let skein = wipe().craft(skein, &mut Notes::default()).expect("wipe");
-    assert_eq!(skein.verify(), Ok(()));
-    assert_eq!(skein.layers[0].lines.iter().filter(|line| **line == Line::On).count(), 1);
-}
