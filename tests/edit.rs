@@ -1,6 +1,6 @@
 //! `clayforge edit`: the cases of its page, chains, refusals, and files of our own slicer.
 
-use crate::cli::Room;
+use crate::command::Room;
 use crate::support::{blessing, clay, difference, example, root, sliced, text_of};
 use clayforge::clay_processor::process;
 use std::fs;

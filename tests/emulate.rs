@@ -1,6 +1,6 @@
 //! `clayforge emulate` on files of our own slicer and on what is no such file.
 
-use crate::cli::Room;
+use crate::command::Room;
 use crate::support::{example, text_of};
 use serde_json::Value as Json;
 

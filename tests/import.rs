@@ -1,6 +1,6 @@
 //! Parts of every format through the command: the same cup gives the same print.
 
-use crate::cli::{Ran, Room};
+use crate::command::{Ran, Room};
 use crate::support::{Triangles, cuboid, stl};
 use std::fmt::Write;
 

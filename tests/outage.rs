@@ -2,7 +2,7 @@
 //! or it is asked for what would never end. A named file is then absent, or complete, or the old one.
 #![cfg(unix)]
 
-use crate::cli::{Ran, Room};
+use crate::command::{Ran, Room};
 use crate::support::{cuboid, example, stl};
 use std::fs;
 use std::io::Read;
@@ -120,7 +120,7 @@ fn a_disk_without_room_is_an_error_of_every_command_that_writes() {
     ] {
         // Blocks of half a kilobyte or a whole one; fewer than any of the files has.
         let limited = [
-            &["-c", "ulimit -f 8; exec \"$0\" \"$@\"", crate::cli::program().to_str().expect("a name")],
+            &["-c", "ulimit -f 8; exec \"$0\" \"$@\"", crate::command::program().to_str().expect("a name")],
             words,
         ];
         let mut command = room.command::<&str>(&[]);

@@ -6,7 +6,7 @@ mod cases;
 mod plate;
 mod shapes;
 
-use crate::cli::program;
+use crate::command::program;
 use crate::support::{Triangles, cuboid};
 use serde_json::Value as Json;
 use skein::Slices;

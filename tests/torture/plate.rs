@@ -2,7 +2,7 @@
 
 use super::shapes::{flipped, moved};
 use super::{cube, read_slices};
-use crate::cli::Room;
+use crate::command::Room;
 use crate::support::{cuboid, stl};
 use serde_json::Value as Json;
 use std::fs;

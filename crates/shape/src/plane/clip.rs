@@ -4,7 +4,7 @@
 //! along the very outline: such a joint crosses nothing. The outline's sides are filed in a grid, so a line is compared
 //! only with those beside it.
 
-use super::curves::V;
+use super::vector::V;
 use super::{Point, Ring};
 
 /// A line to be cut: its points in microns; a closed one does not repeat its first.

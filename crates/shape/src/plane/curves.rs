@@ -12,6 +12,8 @@
 //! one before. When two disagree, curves touch within that error and the exact integer kernel of
 //! [`boolean`](super::boolean) takes over. The result is rounded to whole microns once.
 
+use super::tree::{Box2, Tree};
+use super::vector::V;
 use super::{Point, Ring, boolean};
 
 /// A region grown or shrunk.
@@ -22,45 +24,6 @@ pub struct Offset {
     /// The length in microns of the longest loop of the offset curve that turned inside out, where the region was too
     /// narrow: about twice the length of the part that was lost. Infinite when it is not known.
     pub lost: f64,
-}
-
-/// A point or vector in floats of microns.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct V {
-    pub(super) x: f64,
-    pub(super) y: f64,
-}
-
-impl V {
-    pub(super) fn of(point: Point) -> Self {
-        Self { x: f64::from(point.x), y: f64::from(point.y) }
-    }
-
-    /// The nearest point, halves away from zero. (`f64::round` is a call into a library on plain x86-64.)
-    pub(super) fn rounded(self) -> Point {
-        let nearest = |value: f64| (value + 0.5f64.copysign(value)) as i32;
-        Point::new(nearest(self.x), nearest(self.y))
-    }
-
-    pub(super) fn plus(self, other: Self, times: f64) -> Self {
-        Self { x: self.x + other.x * times, y: self.y + other.y * times }
-    }
-
-    pub(super) fn to(self, other: Self) -> Self {
-        Self { x: other.x - self.x, y: other.y - self.y }
-    }
-
-    pub(super) fn cross(self, other: Self) -> f64 {
-        self.x * other.y - self.y * other.x
-    }
-
-    pub(super) fn dot(self, other: Self) -> f64 {
-        self.x * other.x + self.y * other.y
-    }
-
-    pub(super) fn left(self) -> Self {
-        Self { x: -self.y, y: self.x }
-    }
 }
 
 /// Closed curves that may cross themselves and each other.
@@ -76,50 +39,6 @@ pub(super) struct Curves {
 
 /// How many rings share a box.
 const GROUP: usize = 16;
-
-/// How many sides a leaf of the tree holds: few enough to compare all with all, enough to keep the tree small.
-const LEAF: usize = 8;
-
-/// Boxes around runs of a curve's sides: leaves of [`LEAF`] sides first, then pairs of boxes, up to one for all.
-struct Tree {
-    /// Where the ring's points begin and end in [`Curves::points`].
-    start: usize,
-    end: usize,
-    /// Where each level's boxes begin in `boxes`, the leaves' first.
-    levels: Vec<usize>,
-    boxes: Vec<Box2>,
-    /// Whether the run in each box goes forwards all along its chord, so that it cannot cross itself.
-    forwards: Vec<bool>,
-}
-
-#[derive(Clone, Copy)]
-struct Box2 {
-    low: V,
-    high: V,
-}
-
-impl Box2 {
-    const EMPTY: Self = Self {
-        low: V { x: f64::INFINITY, y: f64::INFINITY },
-        high: V { x: f64::NEG_INFINITY, y: f64::NEG_INFINITY },
-    };
-
-    fn add(&mut self, point: V) {
-        self.low = V { x: self.low.x.min(point.x), y: self.low.y.min(point.y) };
-        self.high = V { x: self.high.x.max(point.x), y: self.high.y.max(point.y) };
-    }
-
-    fn holds(&self, point: V) -> bool {
-        (self.low.x..=self.high.x).contains(&point.x) && (self.low.y..=self.high.y).contains(&point.y)
-    }
-
-    fn meets(&self, other: &Self) -> bool {
-        self.low.x <= other.high.x
-            && other.low.x <= self.high.x
-            && self.low.y <= other.high.y
-            && other.low.y <= self.high.y
-    }
-}
 
 /// A place where two sides cross, with how far along each it lies (0..1).
 pub(super) struct Crossing {
@@ -195,7 +114,7 @@ impl Curves {
         if self.rings.len().is_multiple_of(GROUP) {
             self.groups.push(Box2::EMPTY);
         }
-        if let (Some(group), Some(bounds)) = (self.groups.last_mut(), tree.boxes.last()) {
+        if let (Some(group), Some(bounds)) = (self.groups.last_mut(), tree.whole()) {
             group.add(bounds.low);
             group.add(bounds.high);
         }
@@ -253,13 +172,7 @@ impl Curves {
         let (loops, region) = self.rings.split_at(first);
         for one in loops {
             for other in region {
-                one.with_other(
-                    self,
-                    other,
-                    (one.levels.len() - 1, 0),
-                    (other.levels.len() - 1, 0),
-                    &mut found,
-                );
+                one.with_other(&self.points, other, &mut |one, other| found.extend(self.compare(one, other)));
             }
         }
         let mut cuts: Vec<(usize, f64)> =
@@ -269,12 +182,11 @@ impl Curves {
         let mut cuts = cuts.into_iter().peekable();
         for one in loops {
             for side in one.start..one.end {
-                let (from, vector) = (self.points[side], self.points[side].to(self.after(one, side)));
+                let (from, vector) = (self.points[side], self.points[side].to(one.after(&self.points, side)));
                 let mut before = 0.0;
                 let mut part = |until: f64| {
                     let middle = from.plus(vector, f64::midpoint(before, until));
-                    let winding: i32 =
-                        region.iter().map(|tree| tree.winding(self, tree.levels.len() - 1, 0, middle)).sum();
+                    let winding: i32 = region.iter().map(|tree| tree.winding(&self.points, middle)).sum();
                     if winding <= 0 && until > before {
                         parts.push(V { x: vector.x * (until - before), y: vector.y * (until - before) });
                     }
@@ -293,44 +205,36 @@ impl Curves {
     pub(super) fn crossings(&self) -> Vec<Crossing> {
         let mut found = Vec::new();
         for (index, tree) in self.rings.iter().enumerate() {
-            tree.with_itself(self, tree.levels.len() - 1, 0, &mut found);
+            let mut pair =
+                |one: (&Tree, usize), other: (&Tree, usize)| found.extend(self.compare(one, other));
+            tree.with_itself(&self.points, &mut pair);
             for other in &self.rings[index + 1..] {
-                tree.with_other(
-                    self,
-                    other,
-                    (tree.levels.len() - 1, 0),
-                    (other.levels.len() - 1, 0),
-                    &mut found,
-                );
+                tree.with_other(&self.points, other, &mut pair);
             }
         }
         found
     }
 
-    /// The end of a side that starts at a point of a ring.
-    fn after(&self, tree: &Tree, side: usize) -> V {
-        self.points[tree.next(side)]
-    }
-
-    fn compare(&self, tree: &Tree, side: usize, other: &Tree, second: usize, found: &mut Vec<Crossing>) {
-        let (a, b) = (self.points[side], self.after(tree, side));
-        let (c, d) = (self.points[second], self.after(other, second));
+    /// Where two sides cross, if they do.
+    fn compare(&self, (tree, side): (&Tree, usize), (other, second): (&Tree, usize)) -> Option<Crossing> {
+        let (a, b) = (self.points[side], tree.after(&self.points, side));
+        let (c, d) = (self.points[second], other.after(&self.points, second));
         // Neighbours share an end and cannot cross.
         if std::ptr::eq(tree, other) && (tree.next(side) == second || tree.next(second) == side) {
-            return;
+            return None;
         }
         if a.x.max(b.x) < c.x.min(d.x)
             || c.x.max(d.x) < a.x.min(b.x)
             || a.y.max(b.y) < c.y.min(d.y)
             || c.y.max(d.y) < a.y.min(b.y)
         {
-            return;
+            return None;
         }
         let (end, second_end) = (tree.next(side), other.next(second));
         if self.left(side, end, second) == self.left(side, end, second_end)
             || self.left(second, second_end, side) == self.left(second, second_end, end)
         {
-            return;
+            return None;
         }
         let (ab, cd) = (a.to(b), c.to(d));
         let share = |one: f64, other: f64| {
@@ -339,12 +243,12 @@ impl Curves {
         };
         let along = share(cd.cross(c.to(a)), cd.cross(c.to(b)));
         let along_second = share(ab.cross(a.to(c)), ab.cross(a.to(d)));
-        found.push(Crossing {
+        Some(Crossing {
             at: a.plus(ab, along),
             sides: [side, second],
             along: [along, along_second],
             leftwards: self.left(side, end, second_end),
-        });
+        })
     }
 
     /// Whether point `k` lies left of the line from `i` to `j`.
@@ -431,7 +335,7 @@ impl Curves {
                 let mut circle = Circle { points, arcs: vec![Arc { start: 0, ring, rise: 0 }], length: 0.0 };
                 for side in tree.start..tree.end {
                     circle.points.push(self.points[side]);
-                    self.lengthen(&mut circle, side, self.after(tree, side));
+                    self.lengthen(&mut circle, side, tree.after(&self.points, side));
                 }
                 circles.push(circle);
             }
@@ -515,7 +419,7 @@ impl Curves {
     pub(super) fn first_hit(&self, from: V, toward: V, reach: f64) -> Option<f64> {
         let mut best = reach;
         for tree in &self.rings {
-            tree.first_hit(self, tree.levels.len() - 1, 0, from, toward, &mut best);
+            tree.first_hit(&self.points, from, toward, &mut best);
         }
         (best < reach).then_some(best)
     }
@@ -525,7 +429,7 @@ impl Curves {
         // A closed curve does not go round a point outside its box.
         let near = self.groups.iter().enumerate().filter(|(_, group)| group.holds(point));
         near.flat_map(|(index, _)| &self.rings[index * GROUP..((index + 1) * GROUP).min(self.rings.len())])
-            .map(|tree| tree.winding(self, tree.levels.len() - 1, 0, point))
+            .map(|tree| tree.winding(&self.points, point))
             .sum()
     }
 }
@@ -549,192 +453,6 @@ impl Circle {
         let left = vector.left();
         let aside = V { x: left.x * reach, y: left.y * reach };
         Some(Anchor { place: points[index].plus(vector, 0.5), aside, length2, rise })
-    }
-}
-
-impl Tree {
-    fn new(points: &[V], start: usize, end: usize) -> Self {
-        let count = end - start;
-        let leaves = count.div_ceil(LEAF);
-        let mut boxes = Vec::with_capacity(leaves * 2 + 8);
-        for leaf in 0..leaves {
-            let (from, to) = (start + leaf * LEAF, (start + (leaf + 1) * LEAF).min(end));
-            let mut bounds = Box2::EMPTY;
-            points[from..to].iter().for_each(|point| bounds.add(*point));
-            bounds.add(points[if to == end { start } else { to }]);
-            boxes.push(bounds);
-        }
-        let mut levels = vec![0];
-        let (mut from, mut length) = (0, leaves);
-        while length > 1 {
-            levels.push(boxes.len());
-            for pair in 0..length.div_ceil(2) {
-                let mut bounds = boxes[from + 2 * pair];
-                if 2 * pair + 1 < length {
-                    let other: Box2 = boxes[from + 2 * pair + 1];
-                    bounds.add(other.low);
-                    bounds.add(other.high);
-                }
-                boxes.push(bounds);
-            }
-            from += length;
-            length = length.div_ceil(2);
-        }
-        let forwards = Vec::with_capacity(boxes.len());
-        let mut tree = Self { start, end, levels, boxes, forwards };
-        for level in 0..tree.levels.len() {
-            for index in 0..leaves.div_ceil(1 << level) {
-                tree.forwards.push(tree.runs_forwards(points, level, index));
-            }
-        }
-        tree
-    }
-
-    fn runs_forwards(&self, points: &[V], level: usize, index: usize) -> bool {
-        // A run whose first half turns back does so too.
-        if level > 0 && !self.forwards[self.levels[level - 1] + 2 * index] {
-            return false;
-        }
-        let mut sides = self.sides(level, index);
-        let chord = points[sides.start].to(points[self.next(sides.end - 1)]);
-        sides.all(|side| points[side].to(points[self.next(side)]).dot(chord) > 0.0)
-    }
-
-    /// The point after a point of the ring.
-    fn next(&self, index: usize) -> usize {
-        if index + 1 == self.end { self.start } else { index + 1 }
-    }
-
-    fn bounds(&self, level: usize, index: usize) -> &Box2 {
-        &self.boxes[self.levels[level] + index]
-    }
-
-    /// The boxes inside a box.
-    fn children(&self, level: usize, index: usize) -> impl Iterator<Item = (usize, usize)> + use<> {
-        let below = self.levels[level] - self.levels[level - 1];
-        [2 * index, 2 * index + 1]
-            .into_iter()
-            .filter(move |child| *child < below)
-            .map(move |child| (level - 1, child))
-    }
-
-    /// The sides inside a box.
-    fn sides(&self, level: usize, index: usize) -> std::ops::Range<usize> {
-        let width = LEAF << level;
-        self.start + index * width..(self.start + (index + 1) * width).min(self.end)
-    }
-
-    fn with_itself(&self, curves: &Curves, level: usize, index: usize, found: &mut Vec<Crossing>) {
-        if self.forwards[self.levels[level] + index] {
-            return;
-        }
-        if level == 0 {
-            let sides = self.sides(0, index);
-            for side in sides.clone() {
-                for second in side + 1..sides.end {
-                    curves.compare(self, side, self, second, found);
-                }
-            }
-            return;
-        }
-        let (one, other) = ((level - 1, 2 * index), (level - 1, 2 * index + 1));
-        self.with_itself(curves, one.0, one.1, found);
-        if self.children(level, index).count() == 2 {
-            self.with_itself(curves, other.0, other.1, found);
-            self.with_other(curves, self, one, other, found);
-        }
-    }
-
-    fn with_other(
-        &self,
-        curves: &Curves,
-        other: &Self,
-        one: (usize, usize),
-        two: (usize, usize),
-        found: &mut Vec<Crossing>,
-    ) {
-        if !self.bounds(one.0, one.1).meets(other.bounds(two.0, two.1)) {
-            return;
-        }
-        if one.0 == 0 && two.0 == 0 {
-            let seconds = other.sides(0, two.1);
-            let reach = other.bounds(0, two.1);
-            for side in self.sides(0, one.1) {
-                let (a, b) = (curves.points[side], curves.after(self, side));
-                if a.x.max(b.x) < reach.low.x
-                    || a.x.min(b.x) > reach.high.x
-                    || a.y.max(b.y) < reach.low.y
-                    || a.y.min(b.y) > reach.high.y
-                {
-                    continue;
-                }
-                for second in seconds.clone() {
-                    curves.compare(self, side, other, second, found);
-                }
-            }
-        } else if one.0 >= two.0 {
-            for child in self.children(one.0, one.1) {
-                self.with_other(curves, other, child, two, found);
-            }
-        } else {
-            for child in other.children(two.0, two.1) {
-                self.with_other(curves, other, one, child, found);
-            }
-        }
-    }
-
-    fn first_hit(&self, curves: &Curves, level: usize, index: usize, from: V, toward: V, best: &mut f64) {
-        let mut ray = Box2::EMPTY;
-        ray.add(from);
-        ray.add(from.plus(toward, *best));
-        if !self.bounds(level, index).meets(&ray) {
-            return;
-        }
-        if level > 0 {
-            for (level, index) in self.children(level, index) {
-                self.first_hit(curves, level, index, from, toward, best);
-            }
-            return;
-        }
-        for side in self.sides(0, index) {
-            let (a, b) = (curves.points[side], curves.after(self, side));
-            let (left, right) = (toward.cross(from.to(a)), toward.cross(from.to(b)));
-            if (left >= 0.0) != (right >= 0.0) {
-                let share = a.plus(a.to(b), left / (left - right));
-                let along = from.to(share).dot(toward) / toward.dot(toward);
-                if along >= 0.0 && along < *best {
-                    *best = along;
-                }
-            }
-        }
-    }
-
-    /// What the sides in a box add to the winding number: those that cross the ray to the right, upwards less
-    /// downwards. A run that lies wholly right of the point counts by its two ends.
-    fn winding(&self, curves: &Curves, level: usize, index: usize, point: V) -> i32 {
-        let bounds = self.bounds(level, index);
-        if bounds.high.x < point.x || bounds.high.y < point.y || bounds.low.y > point.y {
-            return 0;
-        }
-        let sides = self.sides(level, index);
-        let above = |place: V| i32::from(place.y > point.y);
-        if bounds.low.x > point.x {
-            return above(curves.after(self, sides.end - 1)) - above(curves.points[sides.start]);
-        }
-        if level == 0 {
-            return sides
-                .map(|side| {
-                    let (a, b) = (curves.points[side], curves.after(self, side));
-                    let rise = above(b) - above(a);
-                    let right = rise != 0 && {
-                        let turn = a.to(b).cross(a.to(point));
-                        if rise > 0 { turn > 0.0 } else { turn < 0.0 }
-                    };
-                    if right { rise } else { 0 }
-                })
-                .sum();
-        }
-        self.children(level, index).map(|(level, index)| self.winding(curves, level, index, point)).sum()
     }
 }
 

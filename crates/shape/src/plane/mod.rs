@@ -11,6 +11,8 @@ mod offset;
 mod point;
 mod ring;
 mod simplify;
+mod tree;
+mod vector;
 
 pub use boxes::{Bounds, Boxes, gap2};
 pub use curves::Offset;

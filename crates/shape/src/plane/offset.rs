@@ -4,7 +4,8 @@
 //! number of times is the result (see [`curves`](super::curves)).
 
 use super::Offset;
-use super::curves::{Curves, V};
+use super::curves::Curves;
+use super::vector::V;
 use super::{Point, Ring};
 
 /// Grows (`distance` > 0) or shrinks (`distance` < 0) a region by a distance in microns.
