@@ -1,6 +1,7 @@
 //! What several tests need: the workspace, blessing, differences of texts, parts that are quickly made.
 
 use clayforge::{Event, Notes, Profile, Sliced};
+pub use fuzz::{Triangle, stl};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -222,27 +223,12 @@ pub fn craft(
 // Parts. Lengths are millimetres.
 
 /// Triangles, counter-clockwise seen from outside.
-pub type Triangles = Vec<[[f64; 3]; 3]>;
+pub type Triangles = Vec<Triangle>;
 
 /// A part that is an example of the project.
 pub fn example(name: &str) -> Vec<u8> {
     let path = root().join("examples").join(format!("{name}.stl"));
     fs::read(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
-}
-
-/// The triangles as a binary STL.
-pub fn stl(triangles: &Triangles) -> Vec<u8> {
-    let mut bytes = b"all-tests".to_vec();
-    bytes.resize(80, b' ');
-    bytes.extend_from_slice(&u32::try_from(triangles.len()).expect("few").to_le_bytes());
-    for triangle in triangles {
-        bytes.extend_from_slice(&[0; 12]);
-        for number in triangle.iter().flatten() {
-            bytes.extend_from_slice(&(*number as f32).to_le_bytes());
-        }
-        bytes.extend_from_slice(&[0; 2]);
-    }
-    bytes
 }
 
 /// The triangles as a text STL.

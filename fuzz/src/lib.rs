@@ -14,12 +14,14 @@ mod minimise;
 mod mutate;
 mod random;
 mod session;
+mod stl;
 pub mod targets;
 
 pub use minimise::minimised;
 pub use mutate::Mutator;
 pub use random::Random;
 pub use session::{Finding, Session, attempt};
+pub use stl::{Triangle, stl};
 pub use targets::{TARGETS, Target, target};
 
 use std::path::{Path, PathBuf};

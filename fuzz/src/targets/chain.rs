@@ -1,6 +1,7 @@
 //! Both chains on parts made from bytes.
 
 use super::{Target, assert_not_ours, assert_same, size};
+use crate::stl::{Triangle, stl};
 use clayforge::{Error, Event, Notes, Profile};
 
 pub(super) const TARGET: Target = Target {
@@ -63,7 +64,6 @@ const CHOICES: usize = 4;
 /// Bytes of one solid, and of one corner of it.
 const SOLID: usize = 8;
 
-type Triangle = [[f64; 3]; 3];
 /// A stage and the text behind it.
 type Behind = (&'static str, Vec<u8>);
 
@@ -176,17 +176,4 @@ fn one(&[kind, x, y, z, wide, deep, high, stray]: &[u8; SOLID]) -> Vec<Triangle>
             [d, e, h],
         ],
     }
-}
-
-fn stl(triangles: &[Triangle]) -> Vec<u8> {
-    let mut bytes = vec![b' '; 80];
-    bytes.extend_from_slice(&(triangles.len() as u32).to_le_bytes());
-    for triangle in triangles {
-        bytes.extend_from_slice(&[0; 12]);
-        for number in triangle.iter().flatten() {
-            bytes.extend_from_slice(&(*number as f32).to_le_bytes());
-        }
-        bytes.extend_from_slice(&[0; 2]);
-    }
-    bytes
 }
