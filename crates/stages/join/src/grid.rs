@@ -96,8 +96,12 @@ impl Grid {
         let around =
             (row - 1..=row + 1).flat_map(|row| (column - 1..=column + 1).map(move |column| (column, row)));
         for cell in around.filter_map(|(column, row)| self.index(column, row)) {
-            for side in self.of(cell).filter(|side| wanted(side.owner)) {
+            for side in self.of(cell) {
+                // Most sides are too far away, and need not be asked about.
                 let (share, distance) = side.nearest(point);
+                if distance > best.map_or(self.reach, |best| best.distance) || !wanted(side.owner) {
+                    continue;
+                }
                 let near = Near {
                     owner: side.owner,
                     along: side.start + share * side.from.distance(side.to),
@@ -106,7 +110,7 @@ impl Grid {
                 let nearer = best.is_none_or(|best| {
                     (near.distance, near.owner, near.along) < (best.distance, best.owner, best.along)
                 });
-                if near.distance <= self.reach && nearer {
+                if nearer {
                     best = Some(near);
                 }
             }

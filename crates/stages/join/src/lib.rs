@@ -117,17 +117,26 @@ impl Stage for Join {
 impl Join {
     /// The order of the islands of every layer, and their paths. Where a layer begins depends on where the one before
     /// ended.
-    fn plan(&self, sheets: &[Sheet], spacings: &[f64]) -> Vec<Plan> {
+    fn plan<'a>(&self, sheets: &'a [Sheet], spacings: &[f64]) -> Vec<Plan> {
         let mut here: Option<Point> = None;
         let mut plans: Vec<Plan> = Vec::with_capacity(sheets.len());
-        // What lies beside what is found side by side, for so many layers at a time that it takes little room.
-        for (sheets, spacings) in sheets.chunks(BATCH).zip(spacings.chunks(BATCH)) {
-            let weaves: Vec<Vec<Weave>> =
-                sheets.par_iter().zip(spacings).map(|(sheet, spacing)| sheet.weaves(*spacing)).collect();
-            for ((sheet, weaves), spacing) in sheets.iter().zip(weaves).zip(spacings) {
-                let plan = self.plan_layer(sheet, weaves, *spacing, &mut here, plans.last());
-                plans.push(plan);
-            }
+        // What lies beside what is found side by side while the layers below are planned, for so many at a time that it takes
+        // little room.
+        let mut batches = sheets.chunks(BATCH).zip(spacings.chunks(BATCH)).peekable();
+        let weave = |batch: Option<&(&'a [Sheet], &[f64])>| -> Vec<Vec<Weave<'a>>> {
+            let (sheets, spacings) = batch.copied().unwrap_or_default();
+            sheets.par_iter().zip(spacings).map(|(sheet, spacing)| sheet.weaves(*spacing)).collect()
+        };
+        let mut weaves = weave(batches.peek());
+        while let Some((sheets, spacings)) = batches.next() {
+            let next = batches.peek();
+            let plan = || {
+                for ((sheet, weaves), spacing) in sheets.iter().zip(weaves).zip(spacings) {
+                    let plan = self.plan_layer(sheet, weaves, *spacing, &mut here, plans.last());
+                    plans.push(plan);
+                }
+            };
+            ((), weaves) = rayon::join(plan, || weave(next));
         }
         plans
     }
