@@ -48,7 +48,8 @@ impl Stage for Multiply {
         let Some(bounds) = laid(&skein) else { return Ok(skein) };
         let shifts = self.shifts(bounds, width)?;
         let nozzles = skein.nozzles();
-        if self.columns * self.rows > 1 && nozzles.iter().any(|nozzle| nozzle.on) {
+        let mut layers = skein.layers.iter().zip(&nozzles);
+        if self.columns * self.rows > 1 && layers.any(|(layer, entering)| goes_on(layer, entering)) {
             return Err(Error::new(
                 "a spiral goes on from layer to layer and cannot be laid in turns with its copies",
             )
@@ -60,6 +61,19 @@ impl Stage for Multiply {
         notes.say(format!("{} copies", self.columns * self.rows));
         Ok(skein)
     }
+}
+
+/// Whether clay flows into the part of a layer that is laid for each copy, or out of it.
+fn goes_on(layer: &Layer, entering: &Nozzle) -> bool {
+    let mut nozzle = *entering;
+    layer.lines[..end(layer)].iter().for_each(|line| nozzle.follow(line));
+    entering.on || nozzle.on
+}
+
+/// Where a layer ends; what stands behind is no part of it.
+fn end(layer: &Layer) -> usize {
+    let close = layer.lines.iter().position(|line| *line == Line::Close(Tag::Layer));
+    close.unwrap_or(layer.lines.len())
 }
 
 /// The corners of the box around all beads, in microns: the places between which clay flows.
@@ -131,8 +145,7 @@ impl Multiply {
 fn repeat(layer: Layer, entering: &Nozzle, shifts: impl ExactSizeIterator<Item = Point>) -> Vec<Line> {
     let body = layer.heading();
     // What stands behind the layer's end is said once, too.
-    let close = layer.lines.iter().position(|line| *line == Line::Close(Tag::Layer));
-    let end = close.unwrap_or(layer.lines.len());
+    let end = end(&layer);
     let mut pen = Pen::new(entering, layer.lines.len() * shifts.len());
     layer.lines[..body].iter().for_each(|line| pen.push(line.clone()));
     let mut was = *entering;

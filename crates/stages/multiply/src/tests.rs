@@ -120,6 +120,16 @@ fn the_end_of_a_layer_is_not_repeated() {
     assert_eq!(skein.layers[0].lines.iter().filter(|line| **line == Line::Off).count(), 2);
 }
 
+/// Found by fuzzing: a bead that ends behind the end of its layer was begun again before it had ended.
+#[test]
+fn a_bead_that_ends_behind_its_layer_is_refused() {
+    let mut skein = layers(1);
+    skein.layers[0].lines.retain(|line| *line != Line::Off);
+    skein.layers[0].lines.push(Line::Off);
+    assert_eq!(skein.verify(), Ok(()));
+    assert!(multiply(2, 1, 0, 0).craft(skein, &mut Notes::default()).is_err());
+}
+
 /// Found by fuzzing: a bead that the last layer leaves open cannot be begun again for the next copy.
 #[test]
 fn a_bead_that_never_ends_is_refused() {
