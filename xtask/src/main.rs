@@ -1,5 +1,5 @@
 //! Chores that a potter never meets: the example parts, the pictures of the pages, the files of a new stage, figures
-//! against other slicers, what comes out of a slicer, and the clay of every turn of a spiral.
+//! against other slicers and over the size of a part, what comes out of a slicer, and the clay of every turn of a spiral.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 use std::path::{Path, PathBuf};
@@ -8,6 +8,7 @@ use std::process::ExitCode;
 mod compare;
 mod examples;
 mod gallery;
+mod growth;
 mod new_stage;
 mod page;
 mod pictures;
@@ -32,6 +33,8 @@ usage: cargo xtask examples [--dir DIR]                    the parts in examples
        cargo xtask quality PART.stl FILE.gcode [--area A] [--layers N]
                                                            what comes out: travels, what is bare, what lies over it
        cargo xtask new-stage NAME --after OTHER            the files of a stage, and the lines that register it
+       cargo xtask growth [--clayforge BINARY] [--runs N]  time and memory over triangles and over layers, as curves and
+                                                           tables in docs/performance.md
        cargo xtask compare [--clayforge BINARY] [--runs N] [--out FILE | --page] [PART.stl]...
                                                            time, memory and what comes out against the slicers that are
                                                            installed; `--page` puts it into docs/performance.md";
@@ -45,6 +48,7 @@ fn main() -> ExitCode {
         Some((name, args)) if name == "quality" => quality::run(args),
         Some((name, _)) if name == "gallery" => gallery::run(),
         Some((name, args)) if name == "new-stage" => new_stage::run(args),
+        Some((name, args)) if name == "growth" => growth::run(args),
         Some((name, args)) if name == "compare" => compare::run(args),
         _ => Err(USAGE.to_string()),
     };
