@@ -4,7 +4,7 @@
 mod slicers;
 mod tables;
 
-use crate::process::{Bench, Run, clayforge, said};
+use crate::process::{Bench, Run, clayforge, machine, said};
 use crate::quality::{Measure, Quality, mesh};
 use slicers::{SETTINGS, Setting, Slicer, cura_resources, installed};
 use std::fs;
@@ -41,6 +41,7 @@ struct Asked {
 /// ratios, and one of what comes out; with `--runs 0` the second alone. `--page` puts them into docs/performance.md.
 pub fn run(args: &[String]) -> Result<(), String> {
     let asked = Asked::read(args)?;
+    let machine = machine();
     let slicers = installed(asked.ours.map_or_else(clayforge, Ok)?);
     let bench = Bench::new("compare")?;
     let mut meetings = Vec::new();
@@ -54,7 +55,7 @@ pub fn run(args: &[String]) -> Result<(), String> {
     }
     let mut tables = Vec::new();
     if asked.runs > 0 {
-        tables.push(("compare: time and memory", tables::times(&slicers, &meetings, asked.runs)));
+        tables.push(("compare: time and memory", tables::times(&slicers, &meetings, asked.runs, &machine)));
     }
     tables.push(("compare: what comes out", tables::qualities(&slicers, &meetings)));
     if asked.page {

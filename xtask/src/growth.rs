@@ -45,10 +45,10 @@ pub fn run(args: &[String]) -> Result<(), String> {
     if runs == 0 {
         return Err("no runs, no figures: `--runs` must be 1 or more".to_owned());
     }
+    let mut text = format!("Medians of {runs} runs on {}.\n", machine());
     let program = program.map_or_else(clayforge, Ok)?;
     let bench = Bench::new("growth")?;
     let docs = crate::root().join("docs");
-    let mut text = format!("Medians of {runs} runs on {}.\n", machine());
     for (name, noun, series) in [
         ("growth-triangles", "triangles", by_triangles(&program, &bench, runs)?),
         ("growth-layers", "layers", by_layers(&program, &bench, runs)?),
@@ -172,34 +172,34 @@ impl Series {
 
     /// The figures, and how each grows from the line above: with which power of the size.
     fn table(&self, noun: &str) -> String {
-        let mut table = format!("| {noun} | file, MB |");
-        for way in self.ways {
-            let _ = write!(table, " {way}, s | power | cores' s | MiB | power | memory / file |");
-        }
-        let _ = writeln!(table, "\n|--:|--:|{}", "--:|".repeat(6 * self.ways.len()));
-        let mut above: Option<&Size> = None;
-        for size in &self.sizes {
-            let _ = write!(table, "| {} | {:.1} |", size.count, size.file as f64 / 1e6);
-            for (way, run) in size.runs.iter().enumerate() {
-                let power = |figure: fn(&Run) -> f64| {
-                    above.map_or_else(String::new, |above| {
+        let mut table = format!(
+            "| | {noun} | file, MB | s | power | processor, s | power | MiB | power | memory / file |\n"
+        );
+        let _ = writeln!(table, "|---|{}", "--:|".repeat(9));
+        for (way, name) in self.ways.iter().enumerate() {
+            let mut above: Option<&Size> = None;
+            for size in &self.sizes {
+                let run = &size.runs[way];
+                let cell = |figure: fn(&Run) -> f64, decimals: usize| {
+                    let power = above.map_or_else(String::new, |above| {
                         let grown = figure(run) / figure(&above.runs[way]);
                         format!("{:.2}", exponent(size.count as f64 / above.count as f64, grown))
-                    })
+                    });
+                    format!("{:.decimals$} | {power}", figure(run))
                 };
-                let _ = write!(
+                let _ = writeln!(
                     table,
-                    " {:.3} | {} | {:.2} | {:.0} | {} | {:.1} |",
-                    seconds(run),
-                    power(seconds),
-                    run.worked.as_secs_f64(),
-                    mebibytes(run),
-                    power(mebibytes),
+                    "| {} | {} | {:.1} | {} | {} | {} | {:.1} |",
+                    if above.is_none() { name } else { "" },
+                    size.count,
+                    size.file as f64 / 1e6,
+                    cell(seconds, 3),
+                    cell(worked, 2),
+                    cell(mebibytes, 0),
                     run.memory as f64 * 1024.0 / size.file as f64
                 );
+                above = Some(size);
             }
-            table.push('\n');
-            above = Some(size);
         }
         table
     }
@@ -207,6 +207,10 @@ impl Series {
 
 fn seconds(run: &Run) -> f64 {
     run.time.as_secs_f64()
+}
+
+fn worked(run: &Run) -> f64 {
+    run.worked.as_secs_f64()
 }
 
 fn mebibytes(run: &Run) -> f64 {
@@ -223,7 +227,7 @@ fn middle(runs: &[Run]) -> Run {
     let of = |figure: fn(&Run) -> f64| median(runs.iter().map(figure).collect());
     Run {
         time: std::time::Duration::from_secs_f64(of(seconds)),
-        worked: std::time::Duration::from_secs_f64(of(|run| run.worked.as_secs_f64())),
+        worked: std::time::Duration::from_secs_f64(of(worked)),
         memory: of(|run| run.memory as f64) as u64,
     }
 }
@@ -248,9 +252,9 @@ mod tests {
         ];
         let table = Series { ways: &["slice"], sizes }.table("layers");
         let lines: Vec<&str> = table.lines().skip(2).collect();
-        assert_eq!(lines[0], "| 100 | 1.0 | 0.010 |  | 0.01 | 2 |  | 2.1 |");
-        assert_eq!(lines[1], "| 1000 | 1.0 | 1.000 | 2.00 | 1.00 | 2 | 0.00 | 2.1 |");
-        assert_eq!(lines[2], "| 2000 | 1.0 | 2.000 | 1.00 | 2.00 | 8 | 2.00 | 8.4 |");
+        assert_eq!(lines[0], "| slice | 100 | 1.0 | 0.010 |  | 0.01 |  | 2 |  | 2.1 |");
+        assert_eq!(lines[1], "|  | 1000 | 1.0 | 1.000 | 2.00 | 1.00 | 2.00 | 2 | 0.00 | 2.1 |");
+        assert_eq!(lines[2], "|  | 2000 | 1.0 | 2.000 | 1.00 | 2.00 | 1.00 | 8 | 2.00 | 8.4 |");
         let columns = |line: &str| line.matches('|').count();
         assert!(table.lines().all(|line| columns(line) == columns(lines[0])), "{table}");
     }

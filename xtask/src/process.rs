@@ -103,13 +103,16 @@ pub fn median(mut figures: Vec<f64>) -> f64 {
     }
 }
 
-/// The processor of the machine and how many of them there are.
+/// The processor of the machine, how many of them there are, and how many programs want them: beside others no time is right.
 pub fn machine() -> String {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let cpu = fs::read_to_string("/proc/cpuinfo").ok();
     let named = cpu.as_deref().and_then(|text| text.lines().find_map(|line| line.strip_prefix("model name")));
     let name = named.map_or(std::env::consts::ARCH, |name| name.trim_start_matches(['\t', ' ', ':']));
-    format!("{cores} × {name}, {}", std::env::consts::OS)
+    let load = fs::read_to_string("/proc/loadavg").ok();
+    let load = load.as_deref().and_then(|text| text.split_whitespace().next());
+    let load = load.map_or_else(String::new, |load| format!(", load {load} at the start"));
+    format!("{cores} × {name}, {}{load}", std::env::consts::OS)
 }
 
 #[cfg(test)]

@@ -5,8 +5,9 @@
 mod cover;
 mod path;
 
+use crate::process::median;
 use clayforge::{Notes, Profile, read_part, repaired};
-use cover::{Areas, Side, areas};
+use cover::{Areas, Bead, Side, areas};
 use path::{Level, Path};
 use shape::{Face, TriangleMesh};
 use std::fs;
@@ -89,26 +90,52 @@ impl Measure {
         })
     }
 
-    /// What the beads of some levels cover of the part, which stands with the middle of its box on that of the beads.
+    /// What the beads of some levels cover of the part.
+    ///
+    /// Every slicer lays a part where it likes. The middle of its box belongs in that of the box of all beads; or, where a
+    /// tip of the part is too thin to be printed, the middles of most levels tell. It stands where less spills.
     fn cover(&self, part: &TriangleMesh, levels: &[Level], middle: [f64; 2]) -> Areas {
         let bounds = part.bounds();
-        let mm = |microns: i32| f64::from(microns) / 1000.0;
-        let shift = [
+        let floor = mm(bounds.min.z);
+        let cuts: Vec<(usize, Vec<Side>)> = evenly(levels.len(), self.layers)
+            .into_iter()
+            .map(|index| (index, outline(part, floor + levels[index].z - levels[index].height / 2.0)))
+            .filter(|(_, outline)| !outline.is_empty())
+            .collect();
+        let by_box = [
             middle[0] - f64::midpoint(mm(bounds.min.x), mm(bounds.max.x)),
             middle[1] - f64::midpoint(mm(bounds.min.y), mm(bounds.max.y)),
         ];
-        let mut sum = Areas::default();
-        for index in evenly(levels.len(), self.layers) {
-            let level = &levels[index];
-            let below = index.checked_sub(1).map(|below| levels[below].beads.as_slice());
-            let plane = mm(bounds.min.z) + level.z - level.height / 2.0;
-            let outline = outline(part, plane, shift);
-            if !outline.is_empty() {
-                sum.add(&areas(&outline, &level.beads, below));
+        let by_levels = [0, 1].map(|axis| {
+            let of = |(index, outline): &(usize, Vec<Side>)| {
+                let beads = levels[*index].beads.iter().flat_map(|bead| [bead.from[axis], bead.to[axis]]);
+                center(beads) - center(outline.iter().flatten().map(|at| at[axis]))
+            };
+            median(cuts.iter().map(of).collect())
+        });
+        let at = |shift: [f64; 2]| {
+            let mut sum = Areas::default();
+            for (index, outline) in &cuts {
+                let moved = |level: &Level| -> Vec<Bead> {
+                    level.beads.iter().map(|bead| bead.back(shift)).collect()
+                };
+                let below = index.checked_sub(1).map(|below| moved(&levels[below]));
+                sum.add(&areas(outline, &moved(&levels[*index]), below.as_deref()));
             }
-        }
-        sum
+            sum
+        };
+        let (one, other) = (at(by_box), at(by_levels));
+        if other.spill < one.spill { other } else { one }
     }
+}
+
+fn mm(microns: i32) -> f64 {
+    f64::from(microns) / 1000.0
+}
+
+/// The middle between the least and the greatest.
+fn center(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    f64::midpoint(values.clone().fold(f64::MAX, f64::min), values.fold(f64::MIN, f64::max))
 }
 
 impl Quality {
@@ -138,7 +165,7 @@ impl Quality {
 }
 
 /// Where a plane cuts a part: sides with the clay on their left, in no order, in mm.
-fn outline(part: &TriangleMesh, plane: f64, shift: [f64; 2]) -> Vec<Side> {
+fn outline(part: &TriangleMesh, plane: f64) -> Vec<Side> {
     let cut = |face: &Face| {
         let corners =
             part.corners(face).map(|at| [at.x, at.y, at.z].map(|microns| f64::from(microns) / 1000.0));
@@ -147,7 +174,7 @@ fn outline(part: &TriangleMesh, plane: f64, shift: [f64; 2]) -> Vec<Side> {
             let to = corners[(index + 1) % 3];
             let place = || {
                 let share = (plane - from[2]) / (to[2] - from[2]);
-                [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share + shift[axis])
+                [0, 1].map(|axis| from[axis] + (to[axis] - from[axis]) * share)
             };
             match (from[2] < plane, to[2] < plane) {
                 (false, true) => down = Some(place()),

@@ -2,15 +2,15 @@
 
 use super::slicers::Slicer;
 use super::{Meeting, Outcome};
-use crate::process::{Run, machine, median};
+use crate::process::{Run, median};
 use crate::quality::Quality;
 use std::fmt::Write as _;
 
 /// Times, memory and their ratios, a line for each part and setting; and the geometric means of the ratios.
-pub fn times(slicers: &[Slicer], meetings: &[Meeting], runs: usize) -> String {
+pub fn times(slicers: &[Slicer], meetings: &[Meeting], runs: usize, machine: &str) -> String {
     let Some((ours, others)) = slicers.split_first() else { return String::new() };
     // Writing to a string cannot fail, here and below.
-    let mut table = format!("Medians of {runs} turns on {}; {}.\n\n", machine(), versions(slicers));
+    let mut table = format!("Medians of {runs} turns on {machine}; {}.\n\n", versions(slicers));
     let _ = write!(table, "| part | setting | {} | MiB |", ours.name);
     for slicer in others {
         let _ = write!(table, " {} | MiB | time ratio | memory ratio |", slicer.name);

@@ -44,6 +44,14 @@ pub struct Areas {
     pub unsupported: f64,
 }
 
+impl Bead {
+    /// The bead before it was moved.
+    pub fn back(&self, by: [f64; 2]) -> Self {
+        let back = |at: [f64; 2]| [at[0] - by[0], at[1] - by[1]];
+        Self { from: back(self.from), to: back(self.to), width: self.width }
+    }
+}
+
 impl Areas {
     /// Adds those of another layer.
     pub fn add(&mut self, other: &Self) {

@@ -1,4 +1,3 @@
-use super::cover::Bead;
 use super::*;
 use crate::examples::{Mesh, encode, polar, revolve};
 use std::fmt::Write;
@@ -180,6 +179,24 @@ fn one_bead_covers_its_length_and_two_half_circles() {
     // Below lies a strip 2 mm wide that ends in a half circle, which is all within the bead above.
     near(found.unsupported, found.raised - (2.0 + std::f64::consts::FRAC_PI_2));
     near(areas(&ten(), &[bead, bead], None).overlap, 24.0 - covered);
+}
+
+/// A block with a fin on one side that no bead fits into: its box tells the wrong place, the levels above the fin the right
+/// one.
+#[test]
+fn a_part_with_a_thin_fin_is_laid_where_its_beads_lie() {
+    let ((mut vertices, mut triangles), gcode) = block();
+    let first = vertices.len() as u32;
+    vertices.extend([[20.0, -0.1, 0.0], [30.0, 0.0, 0.0], [20.0, 0.1, 0.0], [20.0, 0.0, 1.0]]);
+    triangles
+        .extend([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|face| face.map(|corner| corner + first)));
+    let cover = |part: &Mesh| {
+        let found = Measure { area: 1.0, layers: 40 }.of(&file(part), gcode.as_bytes()).expect("beads");
+        found.cover.expect("no spiral")
+    };
+    let (with, without) = (cover(&(vertices, triangles)), cover(&block().0));
+    assert!((with.spill - without.spill).abs() < 0.1, "{} {}", with.spill, without.spill);
+    assert!((with.bare - without.bare).abs() < 5.0, "{} {}", with.bare, without.bare);
 }
 
 #[test]
