@@ -158,6 +158,22 @@ fn read_slices(path: &Path) -> Option<Slices> {
     Slices::read(&fs::read(path).ok()?).ok()
 }
 
+/// The file is read back in threads while it is written, and every thread asks for its stack at once.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_slice_without_room_for_its_threads_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("part.stl"), stl(&cube())).expect("a part");
+    let mut command = limited(&words(&[]), floor() * 2 / 3);
+    let mut child = command.current_dir(folder.path()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let time = waited(&mut child);
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(time < PATIENCE && output.status.code() == Some(1), "{:?}: {said}", output.status);
+    assert!(said.starts_with("error: ") && said.contains("no thread begins"), "{said}");
+    assert!(!folder.path().join("part.gcode").exists());
+}
+
 /// Why a run is not what was expected; nothing when it is.
 fn fault(case: &Case, ran: &Ran) -> Option<String> {
     if ran.time >= PATIENCE {
