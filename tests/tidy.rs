@@ -1,6 +1,6 @@
 //! The layout of the workspace: who may depend on whom, and what every crate must have.
 
-use crate::support::{folders, name_of, root, text_of};
+use crate::support::{folders, name_of, root, sources, text_of};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -172,5 +172,70 @@ fn the_readme_tests_what_the_gate_tests() {
     let readme = root().join("README.md");
     if readme.exists() {
         assert!(text_of(&readme).contains(test), "README.md has another command to test than .ci/run");
+    }
+}
+
+/// The crates that sections of a Cargo.toml name, as code names them.
+fn named<'a>(
+    sections: &'a [Section],
+    which: impl Fn(&str) -> bool + 'a,
+) -> impl Iterator<Item = String> + 'a {
+    let lines = sections.iter().filter(move |(name, _)| which(name)).flat_map(|(_, lines)| lines);
+    lines.filter_map(|line| line.split(['=', '.']).next()).map(|name| name.trim().replace('-', "_"))
+}
+
+/// Whether code names a crate: in a path, or in a `use` by itself.
+fn names(text: &str, name: &str) -> bool {
+    let mut code = text.lines().map(str::trim).filter(|line| !line.starts_with("//"));
+    code.any(|line| {
+        line.match_indices(name).any(|(at, _)| {
+            let before = &line[..at];
+            let behind = &line[at + name.len()..];
+            let begins = !before.ends_with(|last: char| last.is_alphanumeric() || last == '_');
+            let used = before.ends_with("use ") && behind.starts_with([';', ' ']);
+            begins && (behind.starts_with("::") || used)
+        })
+    })
+}
+
+#[test]
+fn every_dependency_is_named_in_the_code_that_has_it() {
+    for member in members() {
+        let sections = sections(&member.join("Cargo.toml"));
+        // What only tests need may be in any of its files, anything else must be in what is built.
+        for (for_tests, folder) in [(false, member.join("src")), (true, member.clone())] {
+            let files = sources(&folder);
+            let which = |name: &str| name.ends_with("dependencies") && name.contains("dev-") == for_tests;
+            for name in named(&sections, which) {
+                let found = files.iter().any(|(_, text)| names(text, &name));
+                assert!(found, "{} depends on {name} and does not name it", member.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn every_dependency_of_the_workspace_has_a_crate_that_needs_it() {
+    let needed: BTreeSet<String> = members().iter().flat_map(|member| dependencies(member)).collect();
+    for name in named(&sections(&root().join("Cargo.toml")), |name| name == "workspace.dependencies") {
+        assert!(needed.contains(&name.replace('_', "-")) || needed.contains(&name), "nobody needs {name}");
+    }
+}
+
+#[test]
+fn the_oldest_compiler_is_the_same_everywhere() {
+    let manifest = text_of(&root().join("Cargo.toml"));
+    let (_, behind) = manifest.split_once("rust-version = \"").expect("a version");
+    let oldest = behind.split('"').next().expect("a version");
+    let page = text_of(&root().join("CONTRIBUTING.md"));
+    for said in [format!("Rust {oldest} or newer"), format!("cargo +{oldest} check ")] {
+        assert!(page.contains(&said), "CONTRIBUTING.md does not say `{said}`");
+    }
+    for member in members() {
+        assert!(
+            text_of(&member.join("Cargo.toml")).contains("rust-version.workspace = true"),
+            "{}",
+            member.display()
+        );
     }
 }

@@ -7,12 +7,13 @@ mod plate;
 mod shapes;
 
 use crate::command::program;
-use crate::support::{Triangles, cuboid};
+use crate::support::{Triangles, cuboid, stl};
 use serde_json::Value as Json;
 use skein::Slices;
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Stdio};
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// What a part must come to.
@@ -46,9 +47,6 @@ pub fn cube() -> Triangles {
     cuboid([0.0; 3], [20.0, 20.0, 12.0])
 }
 
-/// A process may have so much memory beside eight times its file: the program, its threads, the dump.
-const BASE_MEMORY: usize = 384 << 20;
-
 struct Ran {
     code: Option<i32>,
     err: String,
@@ -58,39 +56,57 @@ struct Ran {
     wrote: bool,
 }
 
+/// A part may take so many kilobytes more than the box and eight times its file, because what is written may be larger than
+/// what was read. The Klein bottle, whose G-code is three times its file, takes 1.1 MB of them to be sliced and 2.2 MB for
+/// the dump; a hundred towers take 2.1 MB, and of the others none takes more than 1.1 MB.
+const MARGIN: usize = 4 << 10;
+
+/// The words that slice `part.stl`.
+fn words(settings: &[&str]) -> Vec<String> {
+    let program = program().display().to_string();
+    let steps =
+        ["part.stl", "-o", "part.gcode", "--dump", "steps", "--report", "report.json", "--threads", "1"];
+    let fine = ["machine.bed=[400, 400, 400]", "machine.nozzle=2", "carve.layer_height=1"];
+    let fine = fine.into_iter().chain(["carve.first_layer_height=1", "carve.bead_width=2"]);
+    let sets = fine.chain(settings.iter().copied()).flat_map(|setting| ["--set", setting]);
+    [program.as_str(), "slice"].into_iter().chain(steps).chain(sets).map(str::to_owned).collect()
+}
+
+/// The least memory with which the sound box is sliced, in kilobytes: what the program takes whatever the part is. Found by
+/// halving.
+fn floor() -> usize {
+    static FLOOR: OnceLock<usize> = OnceLock::new();
+    *FLOOR.get_or_init(|| {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("part.stl"), stl(&cube())).expect("a part");
+        let words = words(&[]);
+        let enough = |kilobytes: usize| {
+            let mut command = limited(&words, kilobytes);
+            let mut child =
+                command.current_dir(folder.path()).stderr(Stdio::null()).spawn().expect("it starts");
+            waited(&mut child);
+            child.wait().is_ok_and(|done| done.success())
+        };
+        let (mut low, mut high) = (0, 1 << 20);
+        assert!(enough(high), "the box is not sliced with a gigabyte");
+        // On a system that does not keep to limits, anything is enough.
+        while high - low > 64 {
+            let middle = usize::midpoint(low, high);
+            *(if enough(middle) { &mut high } else { &mut low }) = middle;
+        }
+        high
+    })
+}
+
 /// Slices a file in a folder of its own, with a limit on memory and time.
 fn run(case: &Case) -> Ran {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);
     fs::write(path("part.stl"), &case.file).expect("a part");
-    let mut words = vec![program().display().to_string()];
-    for word in [
-        "slice",
-        "part.stl",
-        "-o",
-        "part.gcode",
-        "--dump",
-        "steps",
-        "--report",
-        "report.json",
-        "--threads",
-        "1",
-    ] {
-        words.push(word.to_owned());
-    }
-    let fine = ["machine.bed=[400, 400, 400]", "machine.nozzle=2", "carve.layer_height=1"];
-    let fine = fine.into_iter().chain(["carve.first_layer_height=1", "carve.bead_width=2"]);
-    for setting in fine.chain(case.settings.iter().copied()) {
-        words.extend(["--set".to_owned(), setting.to_owned()]);
-    }
-    let mut command = limited(&words, (BASE_MEMORY + 8 * case.file.len()) >> 10);
-    let start = Instant::now();
+    let memory = floor() + MARGIN + 8 * case.file.len().div_ceil(1 << 10);
+    let mut command = limited(&words(case.settings), memory);
     let mut child = command.current_dir(folder.path()).stderr(Stdio::piped()).spawn().expect("it starts");
-    while child.try_wait().expect("a child").is_none() && start.elapsed() < PATIENCE {
-        std::thread::sleep(Duration::from_millis(2));
-    }
-    let time = start.elapsed();
-    let _ = child.kill();
+    let time = waited(&mut child);
     let output = child.wait_with_output().expect("it ends");
     let report: Json = fs::read_to_string(path("report.json"))
         .ok()
@@ -107,17 +123,30 @@ fn run(case: &Case) -> Ran {
     }
 }
 
+/// Waits until a run ends, or ends it; how long that took.
+fn waited(child: &mut Child) -> Duration {
+    let start = Instant::now();
+    while child.try_wait().expect("a child").is_none() && start.elapsed() < PATIENCE {
+        std::thread::sleep(Duration::from_millis(2));
+    }
+    let time = start.elapsed();
+    let _ = child.kill();
+    time
+}
+
 /// How long a run may take on a machine that has other work; what hangs without working is met by this.
 const PATIENCE: Duration = Duration::from_secs(120);
 
-/// A command that may not have more than so many kilobytes, nor work for more than 10 s.
+/// A command that may not have more than so many kilobytes of data (what it has asked for, touched or not), nor work for more than 10 s.
 fn limited(words: &[String], kilobytes: usize) -> Command {
     if cfg!(unix) {
         let mut command = Command::new("sh");
         command
-            .args(["-c", "ulimit -v \"$0\"; ulimit -t 10; exec \"$@\""])
+            .args(["-c", "ulimit -d \"$0\"; ulimit -t 10; exec \"$@\""])
             .arg(kilobytes.to_string())
-            .args(words);
+            .args(words)
+            // Where memory ends, drawing up who called whom takes more of it, and the standard library waits for itself.
+            .env("RUST_BACKTRACE", "0");
         return command;
     }
     let mut command = Command::new(&words[0]);
@@ -127,6 +156,22 @@ fn limited(words: &[String], kilobytes: usize) -> Command {
 
 fn read_slices(path: &Path) -> Option<Slices> {
     Slices::read(&fs::read(path).ok()?).ok()
+}
+
+/// The file is read back in threads while it is written, and every thread asks for its stack at once.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_slice_without_room_for_its_threads_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("part.stl"), stl(&cube())).expect("a part");
+    let mut command = limited(&words(&[]), floor() * 2 / 3);
+    let mut child = command.current_dir(folder.path()).stderr(Stdio::piped()).spawn().expect("it starts");
+    let time = waited(&mut child);
+    let output = child.wait_with_output().expect("it ends");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(time < PATIENCE && output.status.code() == Some(1), "{:?}: {said}", output.status);
+    assert!(said.starts_with("error: ") && said.contains("no thread begins"), "{said}");
+    assert!(!folder.path().join("part.gcode").exists());
 }
 
 /// Why a run is not what was expected; nothing when it is.

@@ -212,7 +212,7 @@ fn heightfield(cells: usize, size: f64, height: impl Fn(f64, f64) -> f64) -> Mes
 }
 
 /// Writes a binary STL.
-fn write(path: &Path, name: &str, mesh: &Mesh) -> Result<(), String> {
+pub fn write(path: &Path, name: &str, mesh: &Mesh) -> Result<(), String> {
     let file = File::create(path).map_err(|error| format!("{}: {error}", path.display()))?;
     let mut file = BufWriter::with_capacity(1 << 20, file);
     encode(&mut file, name, mesh)

@@ -12,6 +12,7 @@ use clay_processor::{Firmware, Limits, Options, Processor, Report, Rule, Severit
 use import::{Format, Import};
 use skein::{Error, Notes, Signature, Skein, Value};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::{Builder, Scope, ScopedJoinHandle};
 
 /// What happens while a part is sliced, for progress bars, clocks and dumps.
 pub enum Event<'a> {
@@ -225,9 +226,9 @@ fn finish(
         let (send, receive) = sync_channel(Tee::AHEAD);
         let (pass_on, passed_on) = sync_channel(Tee::AHEAD);
         let (give_back, empty) = sync_channel(2 * Tee::AHEAD + 3);
-        let reader = scope.spawn(move || process(limits, &receive, &pass_on));
+        let reader = begin(scope, move || process(limits, &receive, &pass_on))?;
         let machine = &machine;
-        let timer = scope.spawn(move || time(machine, &passed_on, &give_back));
+        let timer = begin(scope, move || time(machine, &passed_on, &give_back))?;
         let mut tee = Tee { send: Some(send), empty, chunk: Vec::new() };
         let mut both = |piece: &[u8]| {
             tee.push(piece);
@@ -254,6 +255,17 @@ fn finish(
     stopwatch::warn(&totals, profile, bench.notes);
     bench.notes.said_by("motion");
     Ok((counted, found))
+}
+
+/// Begins a thread.
+fn begin<'scope, T: Send + 'scope>(
+    scope: &'scope Scope<'scope, '_>,
+    work: impl FnOnce() -> T + Send + 'scope,
+) -> Result<ScopedJoinHandle<'scope, T>, Error> {
+    Builder::new().spawn_scoped(scope, work).map_err(|error| {
+        Error::new(format!("the file cannot be read back while it is written: no thread begins: {error}"))
+            .hint("the machine has no memory left, or too many programs run on it")
+    })
 }
 
 /// What a file of our own is held against. Stages may make other layers than `carve.layer_height` says; a firmware that

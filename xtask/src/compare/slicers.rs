@@ -1,9 +1,12 @@
 //! How the slicers are asked for the same: two walls, two solid layers at the bottom and at the top, a fifth of lines
 //! between, no skirt, support or retraction, a bed of 300 × 300 × 400 mm; threads as each likes.
 
+use crate::process::said;
+use std::f64::consts::FRAC_PI_4;
 use std::fmt::Write as _;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 
 /// What is equal for all: mm.
 pub struct Setting {
@@ -33,22 +36,51 @@ pub struct Slicer {
     pub program: PathBuf,
     /// How it is asked to slice a part; what it must be told in a file goes into the room.
     pub words: Words,
+    /// What a unit of its E is, in mm³.
+    pub area: fn(&Setting) -> f64,
+    /// How it is asked for its version.
+    asked: &'static [&'static str],
+}
+
+impl Slicer {
+    /// Its name with its version, as far as it tells.
+    pub fn version(&self) -> String {
+        let told = Command::new(&self.program).args(self.asked).stdin(Stdio::null()).output().ok();
+        let text = told.map(|output| [output.stdout, output.stderr].concat()).unwrap_or_default();
+        match number(&String::from_utf8_lossy(&text)) {
+            Some(number) => format!("{} {number}", self.name),
+            None => self.name.to_owned(),
+        }
+    }
+}
+
+/// The first number of a text that has two points in it, as versions have.
+fn number(text: &str) -> Option<&str> {
+    let numbers = text.split(|letter: char| !letter.is_ascii_digit() && letter != '.');
+    numbers.map(|number| number.trim_matches('.')).find(|number| number.matches('.').count() == 2)
 }
 
 /// Ours, and those of the others that are there.
 pub fn installed(ours: PathBuf) -> Vec<Slicer> {
-    let mut slicers = vec![Slicer { name: "clayforge", program: ours, words: clayforge }];
+    let mut slicers = vec![Slicer {
+        name: "clayforge",
+        program: ours,
+        words: clayforge,
+        area: |_| 1.0,
+        asked: &["--version"],
+    }];
     let path = std::env::var_os("PATH").unwrap_or_default();
-    let others: [(_, _, Words); 3] = [
-        ("CuraEngine", "CuraEngine", cura),
-        ("PrusaSlicer", "prusa-slicer", prusa),
-        ("Slic3r", "slic3r", slic3r),
+    let others: [(_, _, Words, &'static [&'static str]); 3] = [
+        ("CuraEngine", "CuraEngine", cura, &[]),
+        ("PrusaSlicer", "prusa-slicer", prusa, &["--help"]),
+        ("Slic3r", "slic3r", slic3r, &["--version"]),
     ];
-    for (name, file, words) in others {
+    let area: fn(&Setting) -> f64 = |setting| FRAC_PI_4 * setting.filament * setting.filament;
+    for (name, file, words, asked) in others {
         if let Some(program) =
             std::env::split_paths(&path).map(|folder| folder.join(file)).find(|path| path.is_file())
         {
-            slicers.push(Slicer { name, program, words });
+            slicers.push(Slicer { name, program, words, area, asked });
         }
     }
     slicers
@@ -147,7 +179,7 @@ fn prusa(setting: &Setting, part: &Path, out: &Path, room: &Path) -> Result<Vec<
          max_print_height = 400\nbed_shape = 0x0,300x0,300x300,0x300\nuse_relative_e_distances = 0"
     );
     let settings = room.join(format!("{name}.ini"));
-    fs::write(&settings, text).map_err(|error| super::said(&settings, &error))?;
+    fs::write(&settings, text).map_err(|error| said(&settings, &error))?;
     Ok(vec![
         "--export-gcode".to_owned(),
         "--load".to_owned(),
@@ -179,4 +211,19 @@ fn slic3r(setting: &Setting, part: &Path, out: &Path, _: &Path) -> Result<Vec<St
     }
     all.extend(["-o".to_owned(), path(out), path(part)]);
     Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn a_version_is_found_in_what_a_program_says() {
+        for (text, version) in [
+            ("[2026-11-22 22:40:12.116983] trace\nPrusaSlicer-2.5.0+UNKNOWN based on", Some("2.5.0")),
+            ("\nCura_SteamEngine version 4.13.0\nCopyright (C) 2021.", Some("4.13.0")),
+            ("1.3.0\n", Some("1.3.0")),
+            ("usage: slicer 1.5 FILE", None),
+        ] {
+            assert_eq!(super::number(text), version);
+        }
+    }
 }

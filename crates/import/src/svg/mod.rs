@@ -1,4 +1,4 @@
-//! SVG: the layers of a part as any program draws them (stages.md §1.1).
+//! SVG: the layers of a part as any program draws them (stages.md §1).
 
 mod entities;
 mod frame;
@@ -8,6 +8,7 @@ mod outline;
 mod page;
 mod paint;
 mod path;
+mod script;
 mod stroke;
 mod style;
 mod tangle;

@@ -2,6 +2,7 @@
 
 use super::damaged;
 use super::frame::Frame;
+use super::script::Script;
 use crate::{FileUnit, ImportError};
 use roxmltree::{Document, Node};
 use skein::{Facts, Micron};
@@ -37,10 +38,12 @@ impl Page {
         let given = (unit != FileUnit::File).then(|| unit.or(None).microns() as f64 / 1000.0);
         let said = Said::of(root)?;
         let layers = metadata(document);
+        let script = Script::of(document).filter(|_| layers.is_none());
         let slic3r = root.namespaces().any(|space| space.uri().contains("slic3r"));
         let upward = layers.and_then(|layers| layers.attribute("yAxisPointingUpward"));
-        // Slic3r turns y neither.
-        let plain = slic3r || upward.is_some_and(|value| value.eq_ignore_ascii_case("true"));
+        // Slic3r turns y neither, nor does the seed.
+        let plain =
+            slic3r || script.is_some() || upward.is_some_and(|value| value.eq_ignore_ascii_case("true"));
         let bare = said.is_bare();
         let unit = given.unwrap_or(if bare || plain { 1.0 } else { INCH / DPI });
         let frame = if plain {
@@ -48,9 +51,14 @@ impl Page {
         } else {
             said.frame(unit, given.is_some())
         };
+        let said_of_part = |name: &str| match &script {
+            Some(script) => script.value(name),
+            None => layers.and_then(|layers| layers.attribute(name)),
+        };
+        let either = |name: &str, old: &str| length(said_of_part(name).or_else(|| said_of_part(old))?);
         let facts = Facts {
-            layer_height: layers.and_then(|layers| length(layers, "layerHeight", "layerThickness")),
-            bead_width: layers.and_then(|layers| length(layers, "edgeWidth", "perimeterWidth")),
+            layer_height: either("layerHeight", "layerThickness"),
+            bead_width: either("edgeWidth", "perimeterWidth"),
             ..Facts::default()
         };
         let remark = (bare && !plain && given.is_none()).then(|| {
@@ -95,8 +103,7 @@ fn metadata<'a, 'input>(document: &'a Document<'input>) -> Option<Node<'a, 'inpu
     metadata.descendants().find(|node| node.tag_name().name() == "layers")
 }
 
-fn length(node: Node<'_, '_>, name: &str, old: &str) -> Option<Micron> {
-    let text = node.attribute(name).or_else(|| node.attribute(old))?;
+fn length(text: &str) -> Option<Micron> {
     text.trim().parse::<Micron>().ok().filter(|length| length.0 > 0)
 }
 

@@ -76,6 +76,42 @@ fn plain_coordinates_are_taken_as_they_are() {
     assert_eq!(facts.bead_width.map(|width| width.mm()), Some(2.0));
 }
 
+/// The older form, stages.md §1.2: what is said of the part stands in a script, and a layer with a bridge has a comment.
+#[test]
+fn the_drawing_of_the_seed_has_plain_coordinates_too() {
+    let text = r#"<?xml version="1.0" encoding="UTF-8"?>
+<svg xmlns="http://www.w3.org/2000/svg" version="1.1" width="600px" height="400px">
+ <script type="text/ecmascript">
+<![CDATA[
+	decimalPlacesCarried = 3
+	layerThickness = 1.0
+	perimeterWidth = 2.0
+	procedureDone = "carve"
+	extrusionStart = 1
+]]>
+ </script>
+ <g id="z 0.5" transform="translate(20, 242)">
+  <text y="15" fill="black" stroke="none">Layer 0, z 0.5</text>
+  <path transform="scale(3.7, -3.7) translate(0, 0)" fill="white" fill-rule="evenodd"
+   d="M 0.0 0.0 L 8.0 0.0 L 8.0 8.0 L 0.0 8.0 z M 3.0 3.0 L 3.0 5.0 L 5.0 5.0 L 5.0 3.0 z"/>
+ </g>
+ <g id="z 1.5" transform="translate(120, 242)">
+  <text y="15" fill="black" stroke="none">Layer 1, z 1.5</text>
+  <!-- <bridgeRotation> (0.6+0.8j) </bridgeRotation> -->
+  <path transform="scale(3.7, -3.7) translate(0, 0)" d="M 0.0 0.0 L 8.0 0.0 L 8.0 8.0 L 0.0 8.0 z"/>
+ </g>
+</svg>"#;
+    let outer = vec![(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
+    let hole = vec![(3.0, 3.0), (3.0, 5.0), (5.0, 5.0), (5.0, 3.0)];
+    assert_eq!(layers(text), [(0.5, vec![outer.clone(), hole]), (1.5, vec![outer])]);
+    let facts = drawing(text).expect("a drawing").slices.facts;
+    assert_eq!(facts.layer_height.map(|height| height.mm()), Some(1.0));
+    assert_eq!(facts.bead_width.map(|width| width.mm()), Some(2.0));
+    assert_eq!(remarks(text), "");
+    // A script that knows nothing of layers leaves a drawing what it is.
+    assert_ne!(layers(&text.replace("layerThickness", "zoom")), layers(text));
+}
+
 /// As Slic3r writes it: heights a million times too small, y upwards, holes painted over, and a DOCTYPE.
 #[test]
 fn polygons_that_say_what_they_are() {

@@ -157,6 +157,8 @@ impl<'n, 'input> Walker<'_, 'n, 'input> {
         match name {
             "svg" | "g" | "a" | "switch" | "symbol" => self.children(node, here),
             "use" => self.copy(node, here),
+            // The labels of layers are for viewers.
+            "text" if self.page.plain => GO_ON,
             "text" => self.leave_out(|left_out| &mut left_out.texts),
             "image" => self.leave_out(|left_out| &mut left_out.images),
             "title" | "desc" | "style" | "script" | "linearGradient" | "radialGradient" | "filter"

@@ -67,7 +67,7 @@ impl TriangleMesh {
         self.flaws.open
     }
 
-    /// Moves the part. A part within [`unit::Micron::LIMIT`] can be moved by as much in each direction.
+    /// Moves the part. A part within `unit::Micron::LIMIT` can be moved by as much in each direction.
     pub fn translate(&mut self, by: Point3) {
         for vertex in &mut self.vertices {
             *vertex = Point3 { x: vertex.x + by.x, y: vertex.y + by.y, z: vertex.z + by.z };
