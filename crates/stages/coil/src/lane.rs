@@ -112,7 +112,8 @@ impl Links {
 
     /// How far the ends of these lie from the others at most: link from link.
     pub fn furthest_from(&self, others: &Self) -> f64 {
-        let ends = self.all().zip(others.all()).flat_map(|(link, other)| [off(link.0, other), off(link.1, other)]);
+        let ends =
+            self.all().zip(others.all()).flat_map(|(link, other)| [off(link.0, other), off(link.1, other)]);
         ends.fold(0.0, f64::max)
     }
 }

@@ -194,12 +194,13 @@ fn lane(coil: &Coil, source: &Source, index: usize, seam: &Seam) -> Option<Lane>
     Lane::new(&tracks, seam.on(tracks.first()?), wall.pitch)
 }
 
-/// The way of a turn: from the lane below, or on its own where that is level.
+/// The way of a turn: from the lane below, or on its own where it comes from a base or begins anew.
 fn turn(roles: &[Role], lanes: &[Option<Lane>], index: usize) -> Option<Turn> {
     let lane = lanes[index].as_ref()?;
-    match roles[index] {
-        Role::Turn { first: false, .. } => {
-            Some(Turn::blended(lanes.get(index.checked_sub(1)?)?.as_ref()?, lane))
+    let below = index.checked_sub(1);
+    match (roles[index], below.map(|below| roles[below])) {
+        (Role::Turn { first: false, .. }, _) | (Role::Turn { .. }, Some(Role::Flat)) => {
+            Some(Turn::blended(lanes.get(below?)?.as_ref()?, lane))
         }
         _ => Some(Turn::flat(lane)),
     }

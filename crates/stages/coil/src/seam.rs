@@ -86,9 +86,9 @@ pub fn seams(coil: &Coil, sources: &[Source], roles: &[Role], made: &[Option<Flo
             Role::Turn { first: false, .. } => seams.last().copied().flatten(),
             Role::Turn { first: true, .. } | Role::Flat => match (seams.last(), index.checked_sub(1)) {
                 (Some(Some(below)), _) => Some(*below),
-                (_, Some(below)) if matches!(roles[below], Role::Base { .. }) => {
-                    Some(Seam::at(made[below].as_ref().map_or(source.start, |floor| floor.seam(source.start))))
-                }
+                (_, Some(below)) if matches!(roles[below], Role::Base { .. }) => Some(Seam::at(
+                    made[below].as_ref().map_or(source.start, |floor| floor.seam(source.start)),
+                )),
                 _ => Some(Seam::at(source.start)),
             },
             Role::Base { .. } | Role::Layered => None,

@@ -47,7 +47,8 @@ impl Plan<'_> {
             Some((below, _)) => {
                 from = between_tops(below);
                 // Where the layers do not quite lie above each other it comes from where the one below has ended.
-                let end = self.bases[index - 1].as_ref().and_then(|way| way.last()).map_or(first.at, |it| it.0);
+                let end =
+                    self.bases[index - 1].as_ref().and_then(|way| way.last()).map_or(first.at, |it| it.0);
                 if distance(end, first.at) > 1.0 {
                     steps.insert(0, Step { at: end, ..first });
                 }
@@ -105,14 +106,7 @@ impl Plan<'_> {
     }
 
     /// The way of a turn with its heights, and with the gap that it finds below.
-    fn steps(
-        &self,
-        index: usize,
-        lane: &Lane,
-        turn: &Turn,
-        wall: &Wall,
-        hanging: &mut Hanging,
-    ) -> Vec<Step> {
+    fn steps(&self, index: usize, lane: &Lane, turn: &Turn, wall: &Wall, hanging: &mut Hanging) -> Vec<Step> {
         let source = &self.sources[index];
         let height = source.bead.height.um();
         let (Role::Turn { first, .. }, Some((below, _))) = (self.roles[index], self.below(index)) else {
@@ -219,7 +213,8 @@ fn climbing(steps: &[Step], length: f64, from: f64, to: f64) -> Vec<Step> {
     let mut climbing = vec![off(*first, 0.0)];
     let mut at = 0.0;
     for (from, to, far) in sides() {
-        for corner in [length, whole - length].into_iter().filter(|corner| at < *corner && *corner < at + far) {
+        for corner in [length, whole - length].into_iter().filter(|corner| at < *corner && *corner < at + far)
+        {
             let step = Step { at: between(from.at, to.at, (corner - at) / far), ..to };
             climbing.push(off(step, corner));
         }

@@ -64,9 +64,7 @@ impl Stage for Multiply {
 
 /// What helps where clay goes on from layer to layer, by what the header says of the stages that have been here.
 fn way_out(skein: &Skein) -> String {
-    let through = |line: &Line| {
-        matches!(line, Line::Value(pair) if &*pair.0 == "setting" && &*pair.1 == "join through_layers true")
-    };
+    let through = |line: &Line| matches!(line, Line::Value(pair) if &*pair.0 == "setting" && &*pair.1 == "join through_layers true");
     let coil = skein.has_done("coil").then_some("`coil.active`");
     let join = skein.head.iter().any(through).then_some("`join.through_layers`");
     let settings: Vec<&str> = coil.into_iter().chain(join).collect();

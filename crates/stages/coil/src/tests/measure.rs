@@ -124,9 +124,8 @@ pub fn do_cross(one: &Piece, other: &Piece, height: f64) -> bool {
         return false;
     }
     let ends = [(one, other.from), (one, other.to), (other, one.from), (other, one.to)];
-    let touches = |(piece, at): (&Piece, Point3)| {
-        piece.nearest([f64::from(at.x), f64::from(at.y), 0.0]).0 < TOUCH
-    };
+    let touches =
+        |(piece, at): (&Piece, Point3)| piece.nearest([f64::from(at.x), f64::from(at.y), 0.0]).0 < TOUCH;
     if ends.into_iter().any(touches) {
         return false;
     }
