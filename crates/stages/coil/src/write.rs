@@ -41,29 +41,18 @@ impl Plan<'_> {
         let mut steps: Vec<Step> = way.iter().map(level).collect();
         let mut thread = Thread::default();
         let Some(first) = steps.first().copied() else { return Vec::new() };
-        let between_tops = |other: &Source| f64::midpoint(f64::from(other.top), first.height);
-        let (mut from, mut to) = (first.height, first.height);
         match self.below(index).filter(|_| goes_on) {
             Some((below, _)) => {
-                from = between_tops(below);
-                // Where the layers do not quite lie above each other it comes from where the one below has ended.
                 let end =
                     self.bases[index - 1].as_ref().and_then(|way| way.last()).map_or(first.at, |it| it.0);
-                if distance(end, first.at) > 1.0 {
-                    steps.insert(0, Step { at: end, ..first });
-                }
+                steps.insert(0, Step { at: end, ..first });
+                steps = ramp(&steps, source.bead.spacing().um(), f64::from(below.top));
             }
             None => {
                 thread.travel(first.at, source.top);
                 thread.start();
             }
         }
-        if let (Some(Role::Base { goes_on: true, .. }), Some(above)) =
-            (self.roles.get(index + 1), self.sources.get(index + 1))
-        {
-            to = between_tops(above);
-        }
-        let steps = climbing(&steps, CLIMB / 2.0 * source.bead.spacing().um(), from, to);
         thread.lay(&steps, &source.bead);
         if !self.goes_on(index) {
             thread.stop();
@@ -194,35 +183,52 @@ fn sparse(steps: &[Step], tolerance: f64, coarser: usize) -> Vec<Step> {
     if crowded && coarser > 0 { sparse(steps, 2.0 * tolerance, coarser - 1) } else { way }
 }
 
-/// From one layer of the base to the next it climbs over so many beads, half of them at the end of the lower layer and half
-/// at the start of the upper one, so that what the lower has too much the upper has too little.
-const CLIMB: f64 = 3.0;
-
-/// A level way that comes from one height and goes to another, each over a length or over half of what there is; the gap
-/// below it differs by as much.
-fn climbing(steps: &[Step], length: f64, from: f64, to: f64) -> Vec<Step> {
+/// The steps of a layer of the base that comes from the one below: it climbs on one straight line about a bead long, for who
+/// reads the letters only takes two for a spiral, and with all the clay of the way that the line stands for: up to the top
+/// of the layer there is room for it, and the nozzle never stands.
+///
+/// The line is as long as the way along which it leads, but where that turns back it goes on until it is away from its
+/// beginning, or as far away as it comes.
+fn ramp(steps: &[Step], bead: f64, bottom: f64) -> Vec<Step> {
     let Some(first) = steps.first() else { return Vec::new() };
-    let sides = || steps.windows(2).map(|side| (side[0], side[1], distance(side[0].at, side[1].at)));
-    let whole: f64 = sides().map(|(.., far)| far).sum();
-    let length = length.min(whole / 2.0).max(1.0);
-    let off = |step: Step, at: f64| {
-        let part = |end: f64, far: f64| (end - first.height) * (1.0 - far / length).max(0.0);
-        let by = part(from, at) + part(to, whole - at);
-        Step { height: step.height + by, gap: step.gap + by, ..step }
-    };
-    let mut climbing = vec![off(*first, 0.0)];
-    let mut at = 0.0;
-    for (from, to, far) in sides() {
-        for corner in [length, whole - length].into_iter().filter(|corner| at < *corner && *corner < at + far)
-        {
-            let step = Step { at: between(from.at, to.at, (corner - at) / far), ..to };
-            climbing.push(off(step, corner));
+    let mut best: (f64, Option<(usize, Step)>) = (0.0, None);
+    let (mut way, mut clay) = (0.0, 0.0);
+    for (index, side) in steps.windows(2).enumerate() {
+        let far = distance(side[0].at, side[1].at);
+        let parts = (far / bead * LOOKS).ceil().max(1.0);
+        for part in 1..=parts as usize {
+            way += far / parts;
+            clay += far / parts * side[1].width;
+            let at = between(side[0].at, side[1].at, part as f64 / parts);
+            let away = distance(first.at, at);
+            if away > best.0 {
+                best = (away, Some((index, Step { at, width: clay / away, ..side[1] })));
+            }
+            let enough = way >= bead * (1.0 - 0.5 / LOOKS) && away >= LEAST_AWAY * bead;
+            if enough || way >= LONGEST_RAMP * bead {
+                return risen(steps, bottom, best.1);
+            }
         }
-        at += far;
-        climbing.push(off(to, at));
     }
-    climbing
+    risen(steps, bottom, best.1)
 }
+
+/// The steps with those before a place replaced by one line to there, from another height.
+fn risen(steps: &[Step], bottom: f64, line: Option<(usize, Step)>) -> Vec<Step> {
+    let (Some(first), Some((index, to))) = (steps.first(), line) else { return steps.to_vec() };
+    let mut risen = vec![Step { height: bottom, ..*first }, to];
+    risen.extend(&steps[index + 1..]);
+    risen
+}
+
+/// The end of the line is looked for at so many places on a bead's length of the way.
+const LOOKS: f64 = 16.0;
+
+/// It lies so many beads away from its beginning, ...
+const LEAST_AWAY: f64 = 0.75;
+
+/// ... or is the furthest place on so many beads of the way.
+const LONGEST_RAMP: f64 = 3.0;
 
 /// The steps of the level turn behind the last: it fills what that one has left open below its end.
 fn rim(lane: &Lane, turn: &Turn, source: &Source, width: f64, hanging: &mut Hanging) -> Vec<Step> {

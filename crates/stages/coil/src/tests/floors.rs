@@ -55,7 +55,7 @@ fn no_place_of_a_base_is_further_than_a_bead_from_its_thread() {
 
 /// A base of two layers on a disc of 15 mm rose by a layer on 0.02 mm of way and left 7.4 mm³ there.
 #[test]
-fn a_base_climbs_from_layer_to_layer_over_some_beads() {
+fn a_base_climbs_from_layer_to_layer_on_one_line_of_a_bead() {
     let small = Pot { radius: 15_000.0, width: 3_200.0, ..CYLINDER };
     let tiny = Pot { radius: 5_000.0, ..CYLINDER };
     let more = [small, tiny, Pot { square: true, ..tiny }].into_iter().flat_map(|pot| {
@@ -63,22 +63,19 @@ fn a_base_climbs_from_layer_to_layer_over_some_beads() {
         (2..=4).flat_map(move |base| coils.clone().map(|coil| (Pot { base, ..pot }, coil)))
     });
     for (pot, coil) in bases().chain(more) {
-        let (skein, _) = wound(&pot, &coil);
+        let (skein, notes) = wound(&pot, &coil);
+        if pot.radius < 10_000.0 && pot.square {
+            assert!(notes.iter().any(|note| note.text.contains("too small")), "{pot:?}");
+            continue;
+        }
         let turns = turns(&skein);
         let pieces = turns[..pot.base].concat();
-        for (first, piece) in pieces.iter().enumerate() {
-            let mut length = 0.0;
-            let half = pieces[first..].iter().take_while(|piece| {
-                length += piece.length();
-                length - piece.length() < pot.width / 2.0
-            });
-            let top = half.last().map_or(piece.to.z, |piece| piece.to.z);
-            let rise = f64::from(top - piece.from.z);
-            let steepest = f64::from(pot.height) / pot.width;
-            assert!(
-                rise <= 0.5 * steepest * length + 2.0,
-                "{rise} µm on {length} µm: {piece:?} {pot:?} {coil:?}"
-            );
+        let rises = |piece: &&Piece| piece.to.z > piece.from.z;
+        assert_eq!(pieces.iter().filter(rises).count(), pot.base - 1, "{pot:?} {coil:?}");
+        for piece in pieces.iter().filter(rises) {
+            let rise = f64::from(piece.to.z - piece.from.z);
+            let most = f64::from(pot.height) * piece.length() / (pot.width / 2.0);
+            assert!(rise <= most, "{piece:?} of {pot:?} {coil:?}");
         }
         let whole: f64 = pieces.iter().map(|piece| piece.length() * piece.flow * pot.width).sum();
         let room: f64 = (0..pot.base).map(|layer| pot.outline(layer).area() * 1e6).sum();
