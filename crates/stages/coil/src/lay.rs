@@ -1,7 +1,7 @@
 //! From a way in the plane to the lines of a thread.
 
 use crate::source::share;
-use crate::track::{Spot, between, point};
+use crate::track::{Spot, between, point, spot, square};
 use skein::{Bead, Line, Move, Point, Point3, Ratio};
 
 /// A corner of a way that is laid.
@@ -42,9 +42,11 @@ const SAME_FLOW: i32 = 2_000;
 /// Where corners crowd, the nozzle may be off its height by one part in so many of a layer.
 const SLACK: i32 = 100;
 
-/// A piece shorter than so many microns is left to the next: its direction is that of the rounding. What is as near to the
-/// end of the way is left to that.
+/// A piece shorter than so many microns is left to the next: its direction is that of the rounding.
 const SHORTEST: f64 = 5.0;
+
+/// What is as near to the end of the way, or nearer by what rounding moves both, is left to that.
+const NEAR_END: f64 = 7.0;
 
 /// The lines of a thread, or of a part of one.
 #[derive(Debug, Default)]
@@ -78,24 +80,25 @@ impl Thread {
         if let (None, Some(first)) = (self.at, way.first()) {
             self.at = Some(place(first.at, whole(first.height)));
         }
-        let parts = |from: &Step, to: &Step| {
-            // A little less, so that rounding does not add a piece.
-            ((to.gap - from.gap).abs() / finest - 1e-6).ceil().max(1.0) as usize
-        };
+        // A little less, so that rounding does not add a piece.
+        let parts = |side: &[Step]| ((side[1].gap - side[0].gap).abs() / finest - 1e-6).ceil().max(1.0);
+        let parts: Vec<f64> = way.windows(2).map(parts).collect();
+        let Some(end) = way.last() else { return };
+        let rising = way.windows(2).zip(&parts).filter(|(side, _)| rises(side));
         let mut ladder = Ladder {
-            end: way.last().map(|last| place(last.at, whole(last.height))).unwrap_or_default(),
-            left: way.windows(2).filter(|side| rises(side)).map(|side| parts(&side[0], &side[1])).sum(),
+            end: whole(end.height),
+            left: rising.map(|(_, parts)| *parts as usize).sum(),
             slack: (bead.height.0 / SLACK).max(1),
         };
-        for (index, side) in way.windows(2).enumerate() {
+        for (index, (side, parts)) in way.windows(2).zip(&parts).enumerate() {
             let (from, to) = (&side[0], &side[1]);
-            let parts = parts(from, to);
+            let (last_side, rises) = (index + 2 == way.len(), usize::from(rises(side)));
             let mut before = *from;
-            for part in 1..=parts {
-                let behind = from.between(to, part as f64 / parts as f64);
-                ladder.left -= usize::from(rises(side));
-                let last = part == parts && index + 2 == way.len();
-                if last || far(place(behind.at, 0), ladder.end) {
+            for part in 1..=*parts as usize {
+                let share = part as f64 / parts;
+                let behind = from.between(to, share);
+                ladder.left -= rises;
+                if share == 1.0 && last_side || square(behind.at, end.at) >= NEAR_END * NEAR_END {
                     self.piece(&before, &behind, &ladder, bead);
                 }
                 before = behind;
@@ -110,7 +113,8 @@ impl Thread {
             let Some(height) = ladder.above(at.z, place.z) else { return };
             place.z = height;
         }
-        if self.at.is_none_or(|at| far(at, place)) {
+        let far = |at: Point3| square(spot(Point::new(at.x, at.y)), to.at) >= SHORTEST * SHORTEST;
+        if self.at.is_none_or(far) {
             self.flow(share(bead, f64::midpoint(from.gap, to.gap), to.width));
             self.go(place);
         }
@@ -141,8 +145,8 @@ impl Thread {
 /// The heights of a way that rises. It rises with every line, by a micron at least, for who reads the letters only takes one
 /// that does not for its end.
 struct Ladder {
-    /// Where the way ends.
-    end: Point3,
+    /// How high the way ends.
+    end: i32,
     /// How many pieces that rise are to come behind this one.
     left: usize,
     /// How many microns a corner may be off its height, so that all have one of their own where they crowd.
@@ -154,7 +158,7 @@ impl Ladder {
     /// next. The end always has its own.
     fn above(&self, at: i32, wanted: i32) -> Option<i32> {
         let left = i32::try_from(self.left).unwrap_or(i32::MAX);
-        let most = self.end.z.saturating_sub(left).max(wanted - self.slack).min(self.end.z - left.min(1));
+        let most = self.end.saturating_sub(left).max(wanted - self.slack).min(self.end - left.min(1));
         let height = wanted.max(at + 1).min(most);
         (height > at && height <= wanted + self.slack).then_some(height)
     }
@@ -163,11 +167,6 @@ impl Ladder {
 /// Whether a side of a way rises.
 fn rises(side: &[Step]) -> bool {
     side[0].height < side[1].height
-}
-
-/// Whether two places are far enough from each other for a piece.
-fn far(a: Point3, b: Point3) -> bool {
-    Point::new(a.x, a.y).distance(Point::new(b.x, b.y)) >= SHORTEST
 }
 
 fn whole(height: f64) -> i32 {

@@ -10,6 +10,7 @@ use crate::lane::{Lane, Links};
 use crate::plan::Role;
 use crate::source::{Source, Wall};
 use crate::track::{Spot, Track};
+use std::cmp::Ordering;
 
 /// Where a turn begins.
 #[derive(Clone, Copy, Debug)]
@@ -42,36 +43,56 @@ impl Seam {
     fn next(self, wall: &Wall, step: f64) -> Option<Self> {
         let tracks: Vec<Track> = wall.beads.iter().filter_map(Track::new).collect();
         let outermost = tracks.first()?;
-        let anchor = outermost.at(outermost.nearest(self.anchor));
+        let from = outermost.nearest(self.anchor);
+        let anchor = outermost.at(from);
         if tracks.len() == 1 {
             return Some(Self { anchor, step: 0.0, links: None, ..self });
         }
-        let opened = |seam: Self| {
-            let links = Lane::new(&tracks, seam.on(outermost), wall.pitch)?.links();
-            Some(Self { links: Some(links), ..seam })
-        };
-        let lacks_room = |seam: &Self| !seam.links.is_some_and(|links| links.have_room(wall.pitch));
-        let moved = |seam: &Self| {
-            let far = seam.links.zip(self.links).map_or(0.0, |(links, below)| links.furthest_from(&below));
-            far.max(wall.pitch / 2.0)
-        };
         let here = Self { anchor, step, ..self };
+        let opened = |seam: Self, from: f64| {
+            let place = from + seam.step * f64::from(seam.steps);
+            let links = Lane::new(&tracks, place, wall.pitch)?.links();
+            let moved = self.links.map_or(0.0, |below| links.furthest_from(&below));
+            let seam = Self { links: Some(links), ..seam };
+            Some(Opened { seam, lacks_room: !links.have_room(wall.pitch), moved })
+        };
         let on = |by: i32, forth: bool| Self { steps: here.steps.saturating_add(by), forth, ..here };
         let way = if here.forth { 1 } else { -1 };
-        let near = [on(way, here.forth), on(-way, !here.forth), here];
-        let order = |one: &Self, other: &Self| {
-            lacks_room(one).cmp(&lacks_room(other)).then(moved(one).total_cmp(&moved(other)))
-        };
-        let best = near.into_iter().filter_map(opened).min_by(order).unwrap_or(near[0]);
-        if self.links.is_some() || !lacks_room(&best) {
-            return Some(best);
+        let mut best: Option<Opened> = None;
+        for seam in [on(way, here.forth), on(-way, !here.forth), here] {
+            let Some(next) = opened(seam, from) else { continue };
+            if !next.lacks_room && next.moved <= wall.pitch / 2.0 {
+                return Some(next.seam);
+            }
+            if best.as_ref().is_none_or(|best| next.order(best).is_lt()) {
+                best = Some(next);
+            }
+        }
+        let best = best.unwrap_or(Opened { seam: on(way, here.forth), lacks_room: true, moved: 0.0 });
+        if self.links.is_some() || !best.lacks_room {
+            return Some(best.seam);
         }
         let away = |beads: f64| {
-            let place = here.on(outermost) + beads * wall.pitch;
-            opened(Self { anchor: outermost.at(place), steps: 0, ..here }).filter(|seam| !lacks_room(seam))
+            let place = from + here.step * f64::from(here.steps) + beads * wall.pitch;
+            opened(Self { anchor: outermost.at(place), steps: 0, ..here }, place)
+                .filter(|next| !next.lacks_room)
         };
         let mut beads = (1..=FURTHEST).flat_map(|beads| [f64::from(beads), -f64::from(beads)]);
-        Some(beads.find_map(away).unwrap_or(best))
+        Some(beads.find_map(away).unwrap_or(best).seam)
+    }
+}
+
+/// A seam whose links are known.
+struct Opened {
+    seam: Seam,
+    lacks_room: bool,
+    /// How far they lie from those below at most, in microns.
+    moved: f64,
+}
+
+impl Opened {
+    fn order(&self, other: &Self) -> Ordering {
+        self.lacks_room.cmp(&other.lacks_room).then(self.moved.total_cmp(&other.moved))
     }
 }
 
