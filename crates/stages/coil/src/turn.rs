@@ -8,6 +8,8 @@ use crate::track::{Spot, between, distance, foot, square};
 pub struct Turn {
     /// Its corners; it begins on the lane below and ends on the one above, at the seam.
     pub corners: Vec<Corner>,
+    /// How far the lane above lies from the one below at most, in microns.
+    pub reach: f64,
 }
 
 /// A corner of a turn.
@@ -50,18 +52,20 @@ impl Turn {
         let mut so_far = 0.0;
         let mut lengths = Vec::with_capacity(pairs.len());
         let mut before: Option<Spot> = None;
+        let mut reach: f64 = 0.0;
         for (low, high) in pairs {
             let middle = between(low.0, high.0, 0.5);
             so_far += before.map_or(0.0, |before| distance(before, middle));
             before = Some(middle);
             lengths.push(so_far);
+            reach = reach.max(square(low.0, high.0));
         }
         let whole = so_far.max(1.0);
         let corner = |((low, high), length): (&Pair, &f64)| {
             let share = length / whole;
             Corner { at: between(low.0, high.0, share), share, low: low.1, high: high.1 }
         };
-        Self { corners: pairs.iter().zip(&lengths).map(corner).collect() }
+        Self { corners: pairs.iter().zip(&lengths).map(corner).collect(), reach: reach.sqrt() }
     }
 
     /// How much of the turn is laid when the nozzle is over a place of the lane above, and where it is then; the places must

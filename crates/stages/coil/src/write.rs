@@ -104,15 +104,13 @@ impl Plan<'_> {
         // What is below a turn has not risen to where that one begins, but where it ends.
         let turn_below = if first { None } else { self.turns[index - 1].as_ref() };
         if let Some(below) = turn_below {
-            let mut above = turn.above();
-            below.corners.iter().for_each(|corner| hanging.see(above(corner.high).1, corner.at));
+            hanging.see_all(turn, below);
         }
         let mut turn_below = turn_below.map(Turn::over);
         let start = f64::from(below.top);
         let rise = f64::from(source.top) - start;
         let step = |corner: &Corner| {
-            let (risen, on) = turn_below.as_mut().map_or((1.0, corner.at), |over| over(corner.low));
-            hanging.see(corner.at, on);
+            let risen = turn_below.as_mut().map_or(1.0, |over| over(corner.low).0);
             let up = rise * corner.share;
             let gap = up + below.bead.height.um() * (1.0 - risen);
             Step { at: corner.at, height: start + up, gap, width: wall.pitch }
@@ -151,6 +149,31 @@ impl Hanging {
     fn new(width: f64) -> Self {
         let far = width * (0.5 - 2.0 / FINENESS);
         Self { least: far * far, most: (0.0, Spot::default()) }
+    }
+
+    /// A turn over another: at the corners of both, for between them both are straight. A place of a turn lies no further from
+    /// the lane between the two than that turn reaches, so most need not be looked at.
+    fn see_all(&mut self, turn: &Turn, below: &Turn) {
+        let reach = turn.reach + below.reach;
+        if reach * reach > self.least {
+            let (mut above, mut over) = (turn.above(), below.over());
+            below.corners.iter().for_each(|corner| self.see(above(corner.high).1, corner.at));
+            turn.corners.iter().for_each(|corner| self.see(corner.at, over(corner.low).1));
+        }
+    }
+
+    /// The rim over the last turn.
+    fn see_rim(&mut self, way: &[Spot], turn: &Turn) {
+        if turn.reach * turn.reach > self.least {
+            for corner in &turn.corners {
+                let (place, part) = (corner.high as usize, corner.high.fract());
+                if let (Some(from), to) = (way.get(place), way.get(place + 1)) {
+                    self.see(between(*from, *to.unwrap_or(from), part), corner.at);
+                }
+            }
+            let mut over = turn.over();
+            way.iter().enumerate().for_each(|(place, at)| self.see(*at, over(place as f64).1));
+        }
     }
 
     fn see(&mut self, at: Spot, on: Spot) {
@@ -233,18 +256,11 @@ const LONGEST_RAMP: f64 = 3.0;
 /// The steps of the level turn behind the last: it fills what that one has left open below its end.
 fn rim(lane: &Lane, turn: &Turn, source: &Source, width: f64, hanging: &mut Hanging) -> Vec<Step> {
     let way = lane.whole();
-    for corner in &turn.corners {
-        let (place, part) = (corner.high as usize, corner.high.fract());
-        if let (Some(from), to) = (way.get(place), way.get(place + 1)) {
-            hanging.see(between(*from, *to.unwrap_or(from), part), corner.at);
-        }
-    }
+    hanging.see_rim(&way, turn);
     let mut over = turn.over();
     let (height, gap) = (f64::from(source.top), source.bead.height.um());
     let step = |(place, at): (usize, &Spot)| {
-        let (risen, on) = over(place as f64);
-        hanging.see(*at, on);
-        let gap = gap * (1.0 - risen);
+        let gap = gap * (1.0 - over(place as f64).0);
         Step { at: *at, height, gap, width }
     };
     way.iter().enumerate().map(step).collect()
