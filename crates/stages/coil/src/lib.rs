@@ -4,6 +4,7 @@ mod base;
 mod lane;
 mod lay;
 mod plan;
+mod seam;
 mod source;
 #[cfg(test)]
 mod tests;

@@ -2,6 +2,7 @@
 
 use crate::base::Floor;
 use crate::lane::Lane;
+use crate::seam::{Seam, seams};
 use crate::source::{Source, Wall};
 use crate::texture::Waves;
 use crate::track::{Spot, Track};
@@ -57,12 +58,12 @@ impl<'a> Plan<'a> {
         let made: Vec<Option<Floor>> =
             sources.par_iter().zip(&floors).map(|(source, floor)| made(coil, source, *floor)).collect();
         let mut roles = roles(coil, sources, &made, &floors, notes);
-        let anchors = anchors(sources, &roles, &made);
+        let seams = seams(coil, sources, &roles, &made);
         let lanes: Vec<Option<Lane>> = sources
             .par_iter()
-            .zip(&anchors)
+            .zip(&seams)
             .enumerate()
-            .map(|(index, (source, anchor))| lane(coil, source, index, anchor.as_ref()?))
+            .map(|(index, (source, seam))| lane(coil, source, index, seam.as_ref()?))
             .collect();
         finish(&mut roles);
         let turns = (0..sources.len()).into_par_iter().map(|index| turn(&roles, &lanes, index)).collect();
@@ -184,47 +185,22 @@ fn finish(roles: &mut [Role]) {
     }
 }
 
-/// A place on each wall where its seam would be if it did not move on, and how many turns there are below it.
-fn anchors(sources: &[Source], roles: &[Role], made: &[Option<Floor>]) -> Vec<Option<(Spot, usize)>> {
-    let mut anchors: Vec<Option<(Spot, usize)>> = Vec::with_capacity(sources.len());
-    for (index, (source, role)) in sources.iter().zip(roles).enumerate() {
-        let before = match role {
-            Role::Turn { first: false, .. } => anchors.last().copied().flatten(),
-            Role::Turn { first: true, .. } | Role::Flat => match (anchors.last(), index.checked_sub(1)) {
-                (Some(Some((at, turns))), _) => Some((*at, *turns)),
-                (_, Some(below)) if matches!(roles[below], Role::Base { .. }) => {
-                    Some((made[below].as_ref().map_or(source.start, |floor| floor.seam(source.start)), 0))
-                }
-                _ => Some((source.start, 0)),
-            },
-            Role::Base { .. } | Role::Layered => None,
-        };
-        let outermost = source.wall.as_ref().ok().and_then(|wall| wall.beads.first());
-        anchors.push(before.zip(outermost).and_then(|((at, turns), ring)| {
-            let track = Track::new(ring)?;
-            Some((track.at(track.nearest(at)), turns + 1))
-        }));
-    }
-    anchors
-}
-
 /// The closed way of a wall.
-fn lane(coil: &Coil, source: &Source, index: usize, (anchor, turns): &(Spot, usize)) -> Option<Lane> {
+fn lane(coil: &Coil, source: &Source, index: usize, seam: &Seam) -> Option<Lane> {
     let wall = source.wall.as_ref().ok()?;
-    let waved = if coil.wave_height.0 > 0 { waved(coil, wall, index, *anchor) } else { None };
+    let waved = if coil.wave_height.0 > 0 { waved(coil, wall, index, seam.anchor) } else { None };
     let wall = waved.as_ref().unwrap_or(wall);
     let tracks: Vec<Track> = wall.beads.iter().filter_map(Track::new).collect();
-    let outermost = tracks.first()?;
-    let step = if tracks.len() > 1 { coil.seam_step.f64() * wall.pitch * (*turns as f64 - 1.0) } else { 0.0 };
-    Lane::new(&tracks, outermost.nearest(*anchor) + step, wall.pitch)
+    Lane::new(&tracks, seam.on(tracks.first()?), wall.pitch)
 }
 
-/// The way of a turn: from the lane below, or on its own where that is level.
+/// The way of a turn: from the lane below, or on its own where it comes from a base or begins anew.
 fn turn(roles: &[Role], lanes: &[Option<Lane>], index: usize) -> Option<Turn> {
     let lane = lanes[index].as_ref()?;
-    match roles[index] {
-        Role::Turn { first: false, .. } => {
-            Some(Turn::blended(lanes.get(index.checked_sub(1)?)?.as_ref()?, lane))
+    let below = index.checked_sub(1);
+    match (roles[index], below.map(|below| roles[below])) {
+        (Role::Turn { first: false, .. }, _) | (Role::Turn { .. }, Some(Role::Flat)) => {
+            Some(Turn::blended(lanes.get(below?)?.as_ref()?, lane))
         }
         _ => Some(Turn::flat(lane)),
     }

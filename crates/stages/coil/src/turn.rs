@@ -8,8 +8,8 @@ use crate::track::{Spot, between, distance, foot, square};
 pub struct Turn {
     /// Its corners; it begins on the lane below and ends on the one above, at the seam.
     pub corners: Vec<Corner>,
-    /// How far the lane above lies from the one below at most, and where.
-    pub reach: (f64, Spot),
+    /// How far the lane above lies from the one below at most, in microns.
+    pub reach: f64,
 }
 
 /// A corner of a turn.
@@ -22,7 +22,7 @@ pub struct Corner {
     /// Its place on the lane below, counted in that lane's corners.
     pub low: f64,
     /// Its place on the lane above, counted in that lane's corners.
-    high: f64,
+    pub high: f64,
 }
 
 impl Turn {
@@ -33,7 +33,7 @@ impl Turn {
             let place = (*at, place as f64);
             (place, place)
         });
-        Self::new(pairs.collect(), lane.start())
+        Self::new(&pairs.collect::<Vec<Pair>>())
     }
 
     /// A turn from one lane to the next.
@@ -45,50 +45,55 @@ impl Turn {
             (low, high) = (low + below.len() as f64, high + above.len() as f64);
         }
         pairs.push(((below.start(), low), (above.start(), high)));
-        Self::new(pairs, above.start())
+        Self::new(&pairs)
     }
 
-    fn new(pairs: Vec<Pair>, start: Spot) -> Self {
-        let mut reach = (0.0, start);
+    fn new(pairs: &[Pair]) -> Self {
         let mut so_far = 0.0;
-        let mut middle = pairs.first().map_or(start, |(low, high)| between(low.0, high.0, 0.5));
-        let lengths: Vec<f64> = pairs
-            .iter()
-            .map(|(low, high)| {
-                let far = square(low.0, high.0);
-                if far > reach.0 {
-                    reach = (far, high.0);
-                }
-                let next = between(low.0, high.0, 0.5);
-                so_far += distance(middle, next);
-                middle = next;
-                so_far
-            })
-            .collect();
+        let mut lengths = Vec::with_capacity(pairs.len());
+        let mut before: Option<Spot> = None;
+        let mut reach: f64 = 0.0;
+        for (low, high) in pairs {
+            let middle = between(low.0, high.0, 0.5);
+            so_far += before.map_or(0.0, |before| distance(before, middle));
+            before = Some(middle);
+            lengths.push(so_far);
+            reach = reach.max(square(low.0, high.0));
+        }
         let whole = so_far.max(1.0);
         let corner = |((low, high), length): (&Pair, &f64)| {
             let share = length / whole;
             Corner { at: between(low.0, high.0, share), share, low: low.1, high: high.1 }
         };
-        let corners = pairs.iter().zip(&lengths).map(corner).collect();
-        Self { corners, reach: (reach.0.sqrt(), reach.1) }
+        Self { corners: pairs.iter().zip(&lengths).map(corner).collect(), reach: reach.sqrt() }
     }
 
-    /// How much of the turn is laid when the nozzle is over a place of the lane above; the places must be asked for in their
-    /// order.
-    pub fn shares(&self) -> impl FnMut(f64) -> f64 + '_ {
+    /// How much of the turn is laid when the nozzle is over a place of the lane above, and where it is then; the places must
+    /// be asked for in their order.
+    pub fn over(&self) -> impl FnMut(f64) -> (f64, Spot) + '_ {
+        self.at(|corner| corner.high)
+    }
+
+    /// The same for places of the lane below.
+    pub fn above(&self) -> impl FnMut(f64) -> (f64, Spot) + '_ {
+        self.at(|corner| corner.low)
+    }
+
+    fn at(&self, place: impl Fn(&Corner) -> f64) -> impl FnMut(f64) -> (f64, Spot) {
         let mut next = 0;
-        move |place| {
-            while self.corners.get(next).is_some_and(|corner| corner.high < place) {
+        move |wanted| {
+            while self.corners.get(next).is_some_and(|corner| place(corner) < wanted) {
                 next += 1;
             }
-            match (next.checked_sub(1).and_then(|before| self.corners.get(before)), self.corners.get(next)) {
+            let before = next.checked_sub(1).and_then(|before| self.corners.get(before));
+            match (before, self.corners.get(next)) {
                 (Some(before), Some(behind)) => {
-                    let part = (place - before.high) / (behind.high - before.high);
-                    before.share + (behind.share - before.share) * part
+                    let part = (wanted - place(before)) / (place(behind) - place(before));
+                    let share = before.share + (behind.share - before.share) * part;
+                    (share, between(before.at, behind.at, part))
                 }
-                (None, Some(_)) => 0.0,
-                (_, None) => 1.0,
+                (None, Some(first)) => (0.0, first.at),
+                (last, None) => (1.0, last.map(|last| last.at).unwrap_or_default()),
             }
         }
     }

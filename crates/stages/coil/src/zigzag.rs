@@ -36,9 +36,10 @@ impl Zigzag {
         }
         let pitch = room / count;
         let border = inner(outermost, (width + pitch) / 2.0)?;
+        let room = inner(outermost, width / 2.0)?.area() * 1e6;
         let way = |flip: [f64; 2]| {
             let border = Border { flip, ..Border::new(&border, along) };
-            border.zigzag(count as usize, pitch)
+            Some(filling(border.zigzag(count as usize, pitch)?, room))
         };
         Some(Self {
             ways: [way([1.0, 1.0])?, way([-1.0, 1.0])?, way([1.0, -1.0])?, way([-1.0, -1.0])?],
@@ -95,7 +96,7 @@ impl Border {
     }
 
     /// The way along all lines. `None` where the border goes down on its way up: there a line would fall apart.
-    fn zigzag(&self, count: usize, pitch: f64) -> Option<Vec<(Spot, f64)>> {
+    fn zigzag(&self, count: usize, pitch: f64) -> Option<Vec<Corner>> {
         let mut corners: Vec<Spot> =
             self.corners.iter().map(|at| [at[0] * self.flip[0], at[1] * self.flip[1]]).collect();
         if self.flip[0] * self.flip[1] < 0.0 {
@@ -129,26 +130,55 @@ impl Border {
             // To the end of this line on the other side, and along the border up to the next.
             let turn =
                 if line + 2 < count { &here[line][..] } else { here[line].get(..1).unwrap_or_default() };
-            way.extend(turn.iter().map(|at| (*at, pitch)));
+            let ends = |(index, at): (usize, &Spot)| Corner { at: *at, width: pitch, straight: index == 0 };
+            way.extend(turn.iter().enumerate().map(ends));
         }
         // The uppermost follows the border over the top and ends one pitch short of the line below it.
         let mut uppermost = here[count - 2].clone();
         uppermost.extend(reversed(behind(&there[count - 2], pitch)));
         way.extend(beside(&uppermost, height(count - 2), pitch));
-        way.dedup_by_key(|corner| corner.0);
-        Some(way.into_iter().map(|(at, width)| (self.back(at), width)).collect())
+        way.dedup_by_key(|corner| corner.at);
+        Some(way.into_iter().map(|corner| Corner { at: self.back(corner.at), ..corner }).collect())
     }
 }
 
+/// A corner of the way along the lines.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    at: Spot,
+    /// The width of the room for the bead that ends there.
+    width: f64,
+    /// Whether that bead is one of the straight lines, and not a turn or along the border.
+    straight: bool,
+}
+
+/// The way with as much clay as fills a room: where a line turns at a slanting border it leaves a corner open beside it, so
+/// the turns get what is missing.
+fn filling(way: Vec<Corner>, room: f64) -> Vec<(Spot, f64)> {
+    let clay = |straight: bool| -> f64 {
+        let sides = way.windows(2).filter(|side| side[1].straight == straight);
+        sides.map(|side| distance(side[0].at, side[1].at) * side[1].width).sum()
+    };
+    let share = ((room - clay(true)) / clay(false).max(1.0)).clamp(1.0 - MOST_MORE, 1.0 + MOST_MORE);
+    let filled =
+        |corner: &Corner| (corner.at, if corner.straight { corner.width } else { corner.width * share });
+    way.iter().map(filled).collect()
+}
+
+/// Turns get this share more or less than they have room for at most: what is missing elsewhere does not flow to them.
+const MOST_MORE: f64 = 0.25;
+
 /// A way along the border with the room that it has beside a level line: less than a pitch where the two run together.
-fn beside(way: &[Spot], line: f64, pitch: f64) -> Vec<(Spot, f64)> {
+fn beside(way: &[Spot], line: f64, pitch: f64) -> Vec<Corner> {
     let fine = divided(way, pitch);
-    let mut beside: Vec<(Spot, f64)> = fine.first().map(|at| (*at, pitch)).into_iter().collect();
+    let corner = |at: Spot, width: f64| Corner { at, width, straight: false };
+    let mut beside: Vec<Corner> = fine.first().map(|at| corner(*at, pitch)).into_iter().collect();
     beside.extend(fine.windows(2).map(|side| {
         let (from, to) = (side[0], side[1]);
         let away = (f64::midpoint(from[1], to[1]) - line).abs();
         let level = (to[0] - from[0]).abs() / distance(from, to).max(1.0);
-        (to, if away < pitch * level { (away / level).max(LEAST_ROOM * pitch) } else { pitch })
+        let width = if away < pitch * level { (away / level).max(LEAST_ROOM * pitch) } else { pitch };
+        corner(to, width)
     }));
     beside
 }

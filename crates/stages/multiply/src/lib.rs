@@ -51,9 +51,9 @@ impl Stage for Multiply {
         let mut layers = skein.layers.iter().zip(&nozzles);
         if self.columns * self.rows > 1 && layers.any(|(layer, entering)| goes_on(layer, entering)) {
             return Err(Error::new(
-                "a spiral goes on from layer to layer and cannot be laid in turns with its copies",
+                "clay goes on from layer to layer and cannot be laid in turns with its copies",
             )
-            .hint("print the pots one after the other, or set `coil.active` to false"));
+            .hint(way_out(&skein)));
         }
         let skein = skein.rewrite(notes, |index, layer, _| {
             Ok(repeat(layer, &nozzles[index], self.order(index).into_iter().map(|copy| shifts[copy])))
@@ -74,6 +74,19 @@ fn goes_on(layer: &Layer, entering: &Nozzle) -> bool {
 fn end(layer: &Layer) -> usize {
     let close = layer.lines.iter().position(|line| *line == Line::Close(Tag::Layer));
     close.unwrap_or(layer.lines.len())
+}
+
+/// What helps where clay goes on from layer to layer, by what the header says of the stages that have been here.
+fn way_out(skein: &Skein) -> String {
+    let through = |line: &Line| matches!(line, Line::Value(pair) if &*pair.0 == "setting" && &*pair.1 == "join through_layers true");
+    let coil = skein.has_done("coil").then_some("`coil.active`");
+    let join = skein.head.iter().any(through).then_some("`join.through_layers`");
+    let settings: Vec<&str> = coil.into_iter().chain(join).collect();
+    let apart = "print the parts one after the other";
+    match settings.is_empty() {
+        true => apart.to_string(),
+        false => format!("{apart}, or set {} to false", settings.join(" and ")),
+    }
 }
 
 /// The corners of the box around all beads, in microns: the places between which clay flows.

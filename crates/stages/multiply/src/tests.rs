@@ -1,5 +1,5 @@
 use super::*;
-use skein::{Facts, Reader};
+use skein::{Facts, Reader, Signature, Value};
 
 const LAYER: &str = "\
 (<layer> 0.2 )
@@ -136,4 +136,27 @@ fn a_bead_that_never_ends_is_refused() {
     let mut skein = layers(1);
     skein.layers[0].lines.retain(|line| *line != Line::Off);
     assert!(multiply(2, 1, 0, 0).craft(skein, &mut Notes::default()).is_err());
+}
+
+/// The hint names what makes clay go on, and nothing that is off.
+#[test]
+fn the_hint_of_a_refusal_names_what_is_on() {
+    let signed = |stages: &[(&str, &[(&'static str, Value)])]| {
+        let mut skein = layers(1);
+        skein.head.insert(0, Line::Close(Tag::Settings));
+        skein.layers[0].lines.retain(|line| *line != Line::Off);
+        for (stage, settings) in stages {
+            skein.sign(&Signature::new(stage, settings)).expect("a signature");
+        }
+        let error = multiply(2, 1, 0, 0).craft(skein, &mut Notes::default()).expect_err("a refusal");
+        error.hint.expect("a hint")
+    };
+    let through = |on: bool| [("through_layers", Value::from(on))];
+    let (on, off) = (through(true), through(false));
+    let apart = "print the parts one after the other";
+    assert_eq!(signed(&[("join", &off)]), apart);
+    assert_eq!(signed(&[("join", &on)]), format!("{apart}, or set `join.through_layers` to false"));
+    assert_eq!(signed(&[("coil", &[]), ("join", &off)]), format!("{apart}, or set `coil.active` to false"));
+    let both = format!("{apart}, or set `coil.active` and `join.through_layers` to false");
+    assert_eq!(signed(&[("coil", &[]), ("join", &on)]), both);
 }

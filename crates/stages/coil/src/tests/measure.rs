@@ -111,6 +111,9 @@ pub fn nearest(turn: &[Piece], at: [f64; 3]) -> (f64, f64) {
     places.min_by(|one, other| one.0.total_cmp(&other.0)).expect("a bead")
 }
 
+/// Corners nearer to each other than 5 µm are one, so pieces that meet in a corner may pass it by twice that.
+const TOUCH: f64 = 10.0;
+
 /// Whether two pieces cross, seen from above. With a seam that moves on, the end of a turn lies on its own beginning:
 /// that is a layer lower.
 pub fn do_cross(one: &Piece, other: &Piece, height: f64) -> bool {
@@ -118,6 +121,12 @@ pub fn do_cross(one: &Piece, other: &Piece, height: f64) -> bool {
     let (from, to) = (side(other.from, other.to, one.from), side(other.from, other.to, one.to));
     let across = side(one.from, one.to, other.from).signum() * side(one.from, one.to, other.to).signum();
     if from.signum() * to.signum() >= 0 || across >= 0 {
+        return false;
+    }
+    let ends = [(one, other.from), (one, other.to), (other, one.from), (other, one.to)];
+    let touches =
+        |(piece, at): (&Piece, Point3)| piece.nearest([f64::from(at.x), f64::from(at.y), 0.0]).0 < TOUCH;
+    if ends.into_iter().any(touches) {
         return false;
     }
     let share = from as f64 / (from - to) as f64;
