@@ -200,30 +200,27 @@ const LEAST: f64 = 0.67;
 const MOST: f64 = 1.34;
 
 /// A thread cut where it turns back more sharply than an angle between its two sides. What is then shorter than `least`
-/// is left out: it was only the way from one line to the next.
+/// is left out: it was only the way from one line to the next. No angle cuts nothing.
 fn without_sharp_corners(points: &[Point], sharpest: Angle, least: f64) -> Vec<Range<usize>> {
-    if sharpest.0 == 0 {
-        return vec![0..points.len()];
-    }
     let limit = Angle(180_000 - sharpest.0).direction().unit().0;
     let turns_back = |corner: &[Point]| {
         let (x, y) = corner[0].delta(corner[1]);
         let (u, v) = corner[1].delta(corner[2]);
         let lengths = corner[0].distance(corner[1]) * corner[1].distance(corner[2]);
-        ((x * u + y * v) as f64) < limit * lengths
+        sharpest.0 > 0 && ((x * u + y * v) as f64) < limit * lengths
     };
     let cuts =
         points.windows(3).enumerate().filter(|(_, corner)| turns_back(corner)).map(|(index, _)| index + 1);
     let mut parts = Vec::new();
     let mut from = 0;
-    for cut in cuts.chain([points.len() - 1]) {
+    for cut in cuts.chain([points.len().saturating_sub(1)]) {
         parts.push(from..cut + 1);
         from = cut;
     }
     let length = |part: &Range<usize>| {
         points[part.clone()].windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>()
     };
-    parts.retain(|part| length(part) >= least);
+    parts.retain(|part| sharpest.0 == 0 || length(part) >= least);
     parts
 }
 

@@ -191,8 +191,12 @@ impl<'a> Filling<'a> {
     fn strips(&self, index: usize) -> Vec<Strip> {
         let here = self.hatch.crossings[index];
         let there = self.hatch.crossings[here.after as usize];
-        let border = self.border(here, there, true);
         let spacing = self.hatch.spacing;
+        // Most parts of a border run across the rows.
+        if (here.x - there.x).abs() < SHORTEST * spacing {
+            return Vec::new();
+        }
+        let border = self.border(here, there, true);
         let places = self.places(&border, here.row, true);
         let strip = |places: Vec<Place>| {
             let pairs = || places.windows(2);
