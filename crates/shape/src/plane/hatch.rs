@@ -4,7 +4,10 @@
 //! region's rings it is cut into spans. Every crossing knows its neighbours along its ring, so a thread can go from
 //! the end of one row to the next row along the very outline of the region: such a joint crosses nothing.
 
+mod solid;
+
 use super::{Point, Ring};
+pub use solid::Run;
 
 /// The rows of a hatch, from the lowest up.
 pub struct Hatch {
@@ -108,17 +111,7 @@ impl Hatch {
     /// them they lie evenly, as near to `spacing` as that allows.
     pub fn fitted(region: &[Ring], direction: (f64, f64), spacing: f64) -> Self {
         let (points, rings) = turned(region, direction);
-        let heights = points.iter().map(|point| point.1);
-        let (low, high) =
-            heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
-        // A row on the very end has no length; a micron inside it has that of the side it runs along.
-        let room = high - low - 2.0;
-        let gaps = (room / spacing + 0.5).floor();
-        let (base, spacing) = if gaps < 1.0 {
-            (f64::midpoint(low, high), spacing.max(room + 4.0))
-        } else {
-            (low + 1.0, room / gaps)
-        };
+        let (base, spacing) = fitted_rows(&points, spacing);
         Self::across(points, rings, direction, spacing, base)
     }
 
@@ -158,6 +151,24 @@ impl Hatch {
             rows.end_row();
         }
         Self { cosine, sine, spacing, base, first, rows, crossings, points, rings }
+    }
+
+    /// The corners of a ring between two neighbouring crossings, in the turned frame.
+    fn corners(&self, from: Crossing, to: Crossing, forwards: bool) -> impl Iterator<Item = (f64, f64)> {
+        let ring = &self.rings[self.rings.partition_point(|ring| ring.end <= from.side as usize)];
+        let (mut side, last) = (from.side as usize, to.side as usize);
+        std::iter::from_fn(move || {
+            if side == last {
+                return None;
+            }
+            if forwards {
+                side = if side + 1 == ring.end { ring.start } else { side + 1 };
+                return Some(self.points[side]);
+            }
+            let corner = self.points[side];
+            side = if side == ring.start { ring.end - 1 } else { side - 1 };
+            Some(corner)
+        })
     }
 
     /// The number of the lowest row.
@@ -255,6 +266,17 @@ fn turned(region: &[Ring], (cosine, sine): (f64, f64)) -> (Vec<(f64, f64)>, Vec<
         rings.push(start..points.len());
     }
     (points, rings)
+}
+
+/// The height of the first row and how far apart rows lie that fit between the lowest and the highest of some points.
+fn fitted_rows(points: &[(f64, f64)], spacing: f64) -> (f64, f64) {
+    let heights = points.iter().map(|point| point.1);
+    let (low, high) =
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), y| (low.min(y), high.max(y)));
+    // A row on the very end has no length; a micron inside it has that of the side it runs along.
+    let room = high - low - 2.0;
+    let gaps = (room / spacing + 0.5).floor();
+    if gaps < 1.0 { (f64::midpoint(low, high), spacing.max(room + 4.0)) } else { (low + 1.0, room / gaps) }
 }
 
 /// Every row that a side crosses, with where: a row is crossed when exactly one end lies above it.
@@ -374,8 +396,6 @@ impl<'a> Book<'a> {
     /// The corners of the ring between two neighbouring crossings; `None` when the way is too long.
     fn way(&self, from: Crossing, to: Crossing, forwards: bool, reach: f64) -> Option<Vec<Point>> {
         let hatch = self.hatch;
-        let ring = &hatch.rings[hatch.rings.partition_point(|ring| ring.end <= from.side as usize)];
-        let (mut side, last) = (from.side as usize, to.side as usize);
         let mut here = (from.x, hatch.height(from.row));
         let mut length = 0.0;
         let mut way = Vec::new();
@@ -384,15 +404,7 @@ impl<'a> Book<'a> {
             here = place;
             length <= reach
         };
-        while side != last {
-            let corner;
-            if forwards {
-                side = if side + 1 == ring.end { ring.start } else { side + 1 };
-                corner = hatch.points[side];
-            } else {
-                corner = hatch.points[side];
-                side = if side == ring.start { ring.end - 1 } else { side - 1 };
-            }
+        for corner in hatch.corners(from, to, forwards) {
             if !step(corner) {
                 return None;
             }

@@ -4,7 +4,7 @@
 //! triangulated; the middles of the inner sides of its triangles, joined from triangle to triangle, are its middle line
 //! (chordal axis: Prasad 1997).
 
-use super::{Offset, Point, Ring, boolean, islands, offset};
+use super::{Offset, Point, Ring, boolean, islands, offset, simplified};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 use std::collections::BTreeMap;
 
@@ -46,7 +46,7 @@ pub fn thin_parts(region: &[Ring], core: &Offset, width: f64) -> Vec<MiddleLine>
         let share = area(&piece) / covered;
         if covered * MOST < area(&piece) {
             // A stub in a piece as wide as it is long (or no line at all).
-            found = dab(&piece).into_iter().collect();
+            found = dab(&piece, width).into_iter().collect();
         } else {
             found.iter_mut().flat_map(|line| &mut line.widths).for_each(|width| *width *= share.max(LEAST));
         }
@@ -66,28 +66,63 @@ impl MiddleLine {
         let stretches = self.points.windows(2).zip(self.widths.windows(2));
         stretches.map(|(ends, widths)| ends[0].distance(ends[1]) * f64::midpoint(widths[0], widths[1])).sum()
     }
+
+    /// Its parts that are at least so many microns wide and cover at least the square of that.
+    pub fn wider_than(&self, least: f64) -> Vec<Self> {
+        let empty = || Self { points: Vec::new(), widths: Vec::new() };
+        let (mut parts, mut part) = (Vec::new(), empty());
+        let add = |part: &mut Self, at: usize, share: f64| {
+            let along = |from: i32, to: i32| {
+                (f64::from(from) + share * (f64::from(to) - f64::from(from))).round() as i32
+            };
+            let (from, to) = (self.points[at], self.points[if share > 0.0 { at + 1 } else { at }]);
+            part.points.push(Point::new(along(from.x, to.x), along(from.y, to.y)));
+            part.widths.push(if share > 0.0 { least } else { self.widths[at] });
+        };
+        for at in 0..self.points.len() {
+            let here = self.widths[at];
+            if here >= least {
+                add(&mut part, at, 0.0);
+            }
+            let Some(next) = self.widths.get(at + 1) else { break };
+            if (here >= least) != (*next >= least) {
+                add(&mut part, at, (least - here) / (next - here));
+                if here >= least {
+                    parts.push(std::mem::replace(&mut part, empty()));
+                }
+            }
+        }
+        parts.push(part);
+        parts.retain(|part| part.area() >= least * least);
+        parts
+    }
 }
 
-/// The shortest of lines for a piece that is about as long as it is wide: half its length, and as wide as it takes to
-/// fill it. The piece is one outside, first, with its holes.
-pub fn dab(piece: &[Ring]) -> Option<MiddleLine> {
+/// The line for a piece that is about as long as it is wide, as wide as it takes to fill it: a ring half as large as the piece,
+/// or where that would be narrower than a third of `width`, a stretch half as long. The piece is one outside, first, with its
+/// holes.
+pub fn dab(piece: &[Ring], width: f64) -> Option<MiddleLine> {
     let ring = piece.first()?;
+    let area: f64 = piece.iter().map(|ring| ring.area2() as f64 / 2.0).sum();
     let count = ring.0.len() as f64;
     let mean = |of: fn(&Point) -> i32| ring.0.iter().map(|point| f64::from(of(point))).sum::<f64>() / count;
     let centre = (mean(|point| point.x), mean(|point| point.y));
+    let towards = |point: &Point, share: f64| {
+        let at = |centre: f64, place: i32| (centre + share * (f64::from(place) - centre)).round() as i32;
+        Point::new(at(centre.0, point.x), at(centre.1, point.y))
+    };
+    let half = Ring(ring.0.iter().map(|point| towards(point, 0.5)).collect());
+    if let Some(half) = simplified(&half, width / 40.0).filter(|half| area >= width / 3.0 * half.length()) {
+        let widths = vec![area / half.length(); half.0.len() + 1];
+        let points = half.0.iter().chain(half.0.first()).copied().collect();
+        return Some(MiddleLine { points, widths });
+    }
     // Along the farthest corner: the longest way through.
     let far =
         ring.0.iter().max_by_key(|point| point.distance2(Point::new(centre.0 as i32, centre.1 as i32)))?;
-    let (x, y) = (f64::from(far.x) - centre.0, f64::from(far.y) - centre.1);
-    let length = length((x, y));
-    let area: f64 = piece.iter().map(|ring| ring.area2() as f64 / 2.0).sum();
-    if length < 1.0 {
-        return None;
-    }
-    let end = |sign: f64| {
-        Point::new((centre.0 + sign * x / 2.0).round() as i32, (centre.1 + sign * y / 2.0).round() as i32)
-    };
-    Some(MiddleLine { points: vec![end(-1.0), end(1.0)], widths: vec![area / length; 2] })
+    let ends = [towards(far, -0.5), towards(far, 0.5)];
+    let length = ends[0].distance(ends[1]);
+    (length >= 1.0).then(|| MiddleLine { points: ends.to_vec(), widths: vec![area / length; 2] })
 }
 
 /// The graph of the middle: nodes are middles of triangle sides or of triangles where three branches meet.

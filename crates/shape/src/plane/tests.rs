@@ -234,12 +234,37 @@ fn a_ring_wall_thinner_than_a_bead_gets_one_closed_line() {
 }
 
 #[test]
-fn a_peg_thinner_than_a_bead_gets_a_dab_that_fills_it() {
+fn a_peg_thinner_than_a_bead_gets_a_ring_half_as_large_that_fills_it() {
     let peg = [square(0, 600)];
     let lines = thin_parts(&peg, &offset_with_loss(&peg, -360.0), 720.0);
     assert_eq!(lines.len(), 1);
-    let length = lines[0].points[0].distance(lines[0].points[1]);
-    assert!((length * lines[0].widths[0] - 360_000.0).abs() < 2_000.0, "{lines:?}");
+    assert!((lines[0].area() - 360_000.0).abs() < 2_000.0, "{lines:?}");
+    let mut corners = lines[0].points.clone();
+    assert_eq!(corners.pop().as_ref(), corners.first());
+    corners.sort_unstable();
+    assert_eq!(corners, [(150, 150), (150, 450), (450, 150), (450, 450)].map(|(x, y)| Point::new(x, y)));
+}
+
+#[test]
+fn a_peg_too_thin_for_a_ring_gets_a_dab() {
+    let peg = [square(0, 400)];
+    let lines = thin_parts(&peg, &offset_with_loss(&peg, -360.0), 720.0);
+    assert_eq!((lines.len(), lines[0].points.len()), (1, 2));
+    assert!((lines[0].area() - 160_000.0).abs() < 2_000.0, "{lines:?}");
+}
+
+#[test]
+fn a_line_is_cut_where_it_becomes_too_narrow() {
+    let points = [0, 1_000, 2_000, 3_000].map(|x| Point::new(x, 0)).to_vec();
+    let line = MiddleLine { points, widths: vec![100.0, 500.0, 500.0, 0.0] };
+    let parts = line.wider_than(300.0);
+    let cut = MiddleLine {
+        points: [500, 1_000, 2_000, 2_400].map(|x| Point::new(x, 0)).to_vec(),
+        widths: vec![300.0, 500.0, 500.0, 300.0],
+    };
+    assert_eq!(parts, [cut]);
+    assert_eq!(line.wider_than(600.0), []);
+    assert_eq!(line.wider_than(0.0), std::slice::from_ref(&line));
 }
 
 #[test]
@@ -267,7 +292,7 @@ fn a_fin_on_a_block_gets_a_line() {
 
 mod hatching {
     use super::*;
-    use crate::plane::hatch::Hatch;
+    use crate::plane::hatch::{Hatch, Run};
 
     #[test]
     fn a_square_becomes_one_zig_zag() {
@@ -278,6 +303,33 @@ mod hatching {
         let length: f64 = threads[0].windows(2).map(|pair| pair[0].distance(pair[1])).sum();
         // Rows at 1 … 8 mm, eight millimetres long each, seven joints of one millimetre.
         assert_eq!(length, 8.0 * 8_000.0 + 7.0 * 1_000.0);
+    }
+
+    fn circle(radius: f64) -> Ring {
+        let corner = |index: i32| {
+            let angle = std::f64::consts::TAU * f64::from(index) / 90.0;
+            Point::new((radius * libm::cos(angle)) as i32, (radius * libm::sin(angle)) as i32)
+        };
+        Ring((0..90).map(corner).collect())
+    }
+
+    #[test]
+    fn rows_fill_a_round_region_to_its_border() {
+        let (inside, ends) = ([circle(9_500.0)], [circle(9_750.0)]);
+        for direction in [(1.0, 0.0), (0.6, 0.8)] {
+            let runs = Hatch::fitted_to(&inside, &ends, direction, 1_000.0).filled(250.0);
+            let area: f64 = runs.iter().map(Run::area).sum();
+            let room = circle(10_000.0).area() * 1e6;
+            assert!((area / room - 1.0).abs() < 0.03, "{direction:?}: {}", area / room);
+            // The thread begins and ends in the segments over the first and the last row.
+            let beside = runs[1..].iter().map(Run::area).sum::<f64>() / room;
+            assert!(beside < 0.01, "{direction:?}: {beside}");
+            let ends = [runs[0].points[0], runs[0].points[runs[0].points.len() - 1]];
+            for end in ends {
+                assert!((8_000.0..9_950.0).contains(&end.distance(Point::default())), "{end:?}");
+            }
+            assert!(runs[0].widths.iter().all(|width| (50.0..1_100.0).contains(width)), "{direction:?}");
+        }
     }
 
     #[test]

@@ -6,10 +6,11 @@ use crate::strand::{Strand, spacing};
 use crate::surface::Surface;
 use crate::{Fill, Pattern, rings};
 use shape::plane::clip;
-use shape::plane::hatch::{End, Hatch, Intervals, Rows, Span};
+use shape::plane::hatch::{End, Hatch, Intervals, Rows, Run, Span};
 use shape::plane::{islands, offset};
 use skein::{Angle, Direction, Feature, Notes, Point, Ratio, Ring};
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// The infill of one layer.
 pub struct Job<'a> {
@@ -70,7 +71,7 @@ impl Job<'_> {
             let around: Vec<&Intervals> = rows.chain(&own).collect();
             let surface = Surface::find(&hatch, &around, step);
             for points in hatch.threads(&surface.rows, REACH * step) {
-                self.lay(points, Ratio::ONE, strands);
+                self.lay(points, Vec::new(), strands);
             }
             surface
         };
@@ -115,7 +116,7 @@ impl Job<'_> {
             rows.end_row();
         }
         for points in hatch.threads(&rows, REACH * apart) {
-            self.lay(points, Ratio::ONE, strands);
+            self.lay(points, Vec::new(), strands);
         }
     }
 
@@ -129,7 +130,7 @@ impl Job<'_> {
                 if thread.closed {
                     strands.push(Strand::ring(Feature::Infill, thread.points));
                 } else {
-                    self.lay(thread.points, Ratio::ONE, strands);
+                    self.lay(thread.points, Vec::new(), strands);
                 }
             }
         }
@@ -152,34 +153,44 @@ impl Job<'_> {
         strands: &mut Vec<Strand>,
         notes: &mut Notes,
     ) {
-        let hatch = Hatch::fitted(island, turned, step);
-        let threads = hatch.threads(hatch.rows(), REACH * step);
-        let length: f64 =
-            threads.iter().flat_map(|points| points.windows(2)).map(|pair| pair[0].distance(pair[1])).sum();
-        if length == 0.0 {
+        // The middles of the beads reach to half a bead from what is beside them; the room is that much larger. Rows turn
+        // halfway there; where nothing is beside them they must not stand out.
+        let reach = (0.5 - self.fill.overlap.f64()) * step;
+        let margin = if self.fill.walls == 0 { reach } else { reach / 2.0 };
+        let ends = if margin < reach { offset(island, reach - margin) } else { island.to_vec() };
+        let runs = Hatch::fitted_to(island, &ends, turned, step).filled(margin);
+        let laid: f64 = runs.iter().map(Run::area).sum();
+        if laid == 0.0 {
             return;
         }
-        // The middles of the beads reach to half a bead from what is beside them; the room is that much larger.
-        let reach = (0.5 - self.fill.overlap.f64()) * step;
         let room: f64 = offset(island, reach).iter().map(Ring::area).sum();
-        let wanted = room * 1e6 / (length * step);
-        let flow = wanted.clamp(LEAST, MOST);
-        if (flow - wanted).abs() > 1e-9 {
+        let wanted = room * 1e6 / laid;
+        let factor = wanted.clamp(LEAST, MOST);
+        if (factor - wanted).abs() > 1e-9 {
             notes.layer(self.layer, "the room between the walls is too narrow for even infill; it holds more or less clay than there is room");
         }
-        let flow = Ratio::from_f64((flow * 1000.0).round() / 1000.0).unwrap_or(Ratio::ONE);
-        for points in threads {
-            self.lay(points, flow, strands);
+        for run in runs {
+            let flow = |width: &f64| {
+                Ratio::from_f64((width / step * factor * 1000.0).round() / 1000.0).unwrap_or(Ratio::ONE)
+            };
+            let flows = run.widths.iter().map(flow).collect();
+            self.lay(run.points, flows, strands);
         }
     }
 
-    fn lay(&self, points: Vec<Point>, flow: Ratio, strands: &mut Vec<Strand>) {
-        for points in without_sharp_corners(points, self.fill.sharpest_angle, spacing(&self.source.bead)) {
-            if points.len() < 2 {
+    /// Lays a thread; without flows it is of the nominal section.
+    fn lay(&self, points: Vec<Point>, flows: Vec<Ratio>, strands: &mut Vec<Strand>) {
+        for part in without_sharp_corners(&points, self.fill.sharpest_angle, spacing(&self.source.bead)) {
+            if part.len() < 2 {
                 continue;
             }
-            let flows = if flow == Ratio::ONE { Vec::new() } else { vec![flow; points.len() - 1] };
-            strands.push(Strand { feature: Feature::Infill, points, flows, closed: false });
+            let flows = flows.get(part.start..part.end - 1).unwrap_or_default().to_vec();
+            strands.push(Strand {
+                feature: Feature::Infill,
+                points: points[part].to_vec(),
+                flows,
+                closed: false,
+            });
         }
     }
 }
@@ -189,27 +200,27 @@ const LEAST: f64 = 0.67;
 const MOST: f64 = 1.34;
 
 /// A thread cut where it turns back more sharply than an angle between its two sides. What is then shorter than `least`
-/// is left out: it was only the way from one line to the next.
-fn without_sharp_corners(points: Vec<Point>, sharpest: Angle, least: f64) -> Vec<Vec<Point>> {
+/// is left out: it was only the way from one line to the next. No angle cuts nothing.
+fn without_sharp_corners(points: &[Point], sharpest: Angle, least: f64) -> Vec<Range<usize>> {
     let limit = Angle(180_000 - sharpest.0).direction().unit().0;
     let turns_back = |corner: &[Point]| {
         let (x, y) = corner[0].delta(corner[1]);
         let (u, v) = corner[1].delta(corner[2]);
         let lengths = corner[0].distance(corner[1]) * corner[1].distance(corner[2]);
-        ((x * u + y * v) as f64) < limit * lengths
+        sharpest.0 > 0 && ((x * u + y * v) as f64) < limit * lengths
     };
-    if sharpest.0 == 0 {
-        return vec![points];
-    }
     let cuts =
         points.windows(3).enumerate().filter(|(_, corner)| turns_back(corner)).map(|(index, _)| index + 1);
     let mut parts = Vec::new();
     let mut from = 0;
-    for cut in cuts.chain([points.len() - 1]) {
-        parts.push(points[from..=cut].to_vec());
+    for cut in cuts.chain([points.len().saturating_sub(1)]) {
+        parts.push(from..cut + 1);
         from = cut;
     }
-    parts.retain(|part| part.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() >= least);
+    let length = |part: &Range<usize>| {
+        points[part.clone()].windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>()
+    };
+    parts.retain(|part| sharpest.0 == 0 || length(part) >= least);
     parts
 }
 

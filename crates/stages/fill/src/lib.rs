@@ -9,6 +9,7 @@ mod source;
 mod strand;
 mod surface;
 mod walls;
+mod widths;
 
 #[cfg(test)]
 mod tests;

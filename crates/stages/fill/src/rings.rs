@@ -19,7 +19,11 @@ pub fn lay(room: &[Ring], apart: f64, source: &Source, strands: &mut Vec<Strand>
         rings = all_simplified(&rings, step / FINENESS);
         let next = offset(&rings, -apart);
         let inside = offset_with_loss(&rings, -step / 2.0);
-        let mut level = walls::laid(rings, &inside, |_| Feature::Infill, step, source);
+        let mut level = if inside.lost < step && !walls::has_small(&rings, step) {
+            rings.into_iter().map(|ring| Strand::wall(|_| Feature::Infill, ring)).collect()
+        } else {
+            walls::laid(rings, &inside.rings, |_| Feature::Infill, 0.0, step, source)
+        };
         level.iter_mut().for_each(|ring| ring.feature = Feature::Infill);
         level
             .retain(|ring| ring.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum::<f64>() >= step);

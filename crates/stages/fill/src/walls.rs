@@ -2,8 +2,9 @@
 
 use crate::Fill;
 use crate::source::Source;
-use crate::strand::{Strand, share, spacing};
-use shape::plane::{Offset, all_simplified, dab, facing, offset, offset_with_loss, thin_parts};
+use crate::strand::{Strand, spacing};
+use crate::widths::{self, TAKEN_UP};
+use shape::plane::{Offset, all_simplified, dab, offset, offset_with_loss, thin_parts};
 use skein::{Feature, Ring, Side};
 
 /// A wall keeps no corner nearer to a straight line than half a hundredth of a bead.
@@ -31,7 +32,11 @@ pub fn lay(source: &Source, fill: &Fill, walls: u32, solid: bool, strands: &mut 
             fill_gaps(&room.rings, &next, step, source, strands);
         }
         let feature = if level == 1 { Feature::Edge } else { Feature::Loop };
-        strands.extend(laid(wall, &room, feature, step, source));
+        if narrow {
+            strands.extend(laid(wall, &room.rings, feature, TAKEN_UP, step, source));
+        } else {
+            strands.extend(wall.into_iter().map(|ring| Strand::wall(feature, ring)));
+        }
         if last {
             return if overlap > 0.0 { offset(&room.rings, overlap - step / 2.0) } else { next.rings };
         }
@@ -39,69 +44,59 @@ pub fn lay(source: &Source, fill: &Fill, walls: u32, solid: bool, strands: &mut 
     }
 }
 
-/// Walls with as much clay on each stretch as there is room. `inside` is what they enclose, half a bead from their middles.
+/// Walls with as much clay on each stretch as there is room. `inside` is what they enclose, half a bead from their middles;
+/// `taken_up` is the widest gap between two of them, in beads, that they take up themselves.
 pub fn laid(
     wall: Vec<Ring>,
-    inside: &Offset,
+    inside: &[Ring],
     feature: fn(Side) -> Feature,
+    taken_up: f64,
     step: f64,
     source: &Source,
 ) -> Vec<Strand> {
-    if inside.lost < step && !has_small(&wall, step) {
-        wall.into_iter().map(|ring| Strand::wall(feature, ring)).collect()
-    } else {
-        relieved(wall, inside, feature, step, source)
-    }
-}
-
-/// Whether a ring is so small that nothing of it need turn inside out for it to be too narrow.
-fn has_small(rings: &[Ring], step: f64) -> bool {
-    rings.iter().any(|ring| ring.length() < 4.0 * step)
-}
-
-/// Walls of which some have a neighbour across that is nearer than a bead: the two share the room between them.
-fn relieved(
-    wall: Vec<Ring>,
-    room: &Offset,
-    feature: fn(Side) -> Feature,
-    step: f64,
-    source: &Source,
-) -> Vec<Strand> {
-    let gaps = facing(&wall, step);
+    let fitted = widths::fitted(&wall, (1.0 + taken_up) * step - ROUNDING, step);
     let holds = |ring: &Ring, other: &Ring| other.0.first().is_some_and(|point| ring.contains(*point));
     let mut strands = Vec::with_capacity(wall.len());
-    for (index, gaps) in gaps.into_iter().enumerate() {
+    for (index, fitted) in fitted.into_iter().enumerate() {
         let ring = &wall[index];
-        // Half of the room between the middles, and the other half of the bead on its far side.
-        let mut widths: Vec<f64> =
-            gaps.iter().map(|gap| gap.map_or(step, |gap| (gap + step) / 2.0)).collect();
+        let Some(mut fitted) = fitted else {
+            strands.push(Strand::wall(feature, ring.clone()));
+            continue;
+        };
         let others = wall.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| other);
-        let alone =
-            Side::of(ring) == Side::Outer && !others.chain(&room.rings).any(|other| holds(ring, other));
+        let alone = Side::of(ring) == Side::Outer && !others.chain(inside).any(|other| holds(ring, other));
         if alone {
             // Nothing fits inside this wall: what it encloses and half a bead around is all its own.
             let part = offset(std::slice::from_ref(ring), step / 2.0);
             if ring.length() < step {
-                strands.extend(dab(&part).map(|line| Strand::middle(line, &source.bead)));
+                strands.extend(dab(&part, step).map(|line| Strand::middle(line, &source.bead)));
                 continue;
             }
-            let covered: f64 =
-                ring.segments().zip(&widths).map(|((from, to), width)| from.distance(to) * width).sum();
-            let share = part.iter().map(Ring::area).sum::<f64>() * 1e6 / covered;
-            widths.iter_mut().for_each(|width| *width *= share.clamp(0.7, 3.0));
+            let area = part.iter().map(Ring::area).sum::<f64>() * 1e6;
+            fitted.scale((area / fitted.area()).clamp(LEAST, MOST));
         }
-        let flows = widths.into_iter().map(|width| share(&source.bead, width)).collect();
-        strands.push(Strand { flows, ..Strand::wall(feature, ring.clone()) });
+        let (points, flows) = fitted.into_stretches(&source.bead, step / FINENESS);
+        strands.push(Strand { feature: feature(Side::of(ring)), points, flows, closed: true });
     }
     strands
 }
 
-/// Lays beads on the middle of what is too narrow for the next wall.
+/// What is as wide as the widest gap that walls take up must get a bead, whatever is lost in whole microns.
+const ROUNDING: f64 = 2.0;
+
+/// How much more or less clay than its width a wall that has a room for itself takes to fill it.
+const LEAST: f64 = 0.7;
+const MOST: f64 = 3.0;
+
+/// Whether a ring is so small that nothing of it need turn inside out for it to be too narrow.
+pub fn has_small(rings: &[Ring], step: f64) -> bool {
+    rings.iter().any(|ring| ring.length() < 4.0 * step)
+}
+
+/// Lays beads on the middle of what is too narrow for the next wall and too wide for the walls beside it to take up.
 fn fill_gaps(room: &[Ring], next: &Offset, step: f64, source: &Source, strands: &mut Vec<Strand>) {
     for line in thin_parts(room, next, step) {
-        // A gap narrower than a quarter of a bead closes by itself when the clay is pressed.
-        if line.widths.iter().any(|width| *width >= step / 4.0) {
-            strands.push(Strand::middle(line, &source.bead));
-        }
+        let wide = line.wider_than(TAKEN_UP * step - ROUNDING);
+        strands.extend(wide.into_iter().map(|line| Strand::middle(line, &source.bead)));
     }
 }

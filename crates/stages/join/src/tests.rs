@@ -61,7 +61,7 @@ fn walls_inside_each_other_are_one_thread_that_ends_where_it_begins() {
 }
 
 #[test]
-fn a_rung_leaves_the_length_as_it_is() {
+fn the_two_steps_of_a_rung_are_half_beads_half_a_bead_apart() {
     let strands = [square(1500, 58500), square(4500, 55500)];
     let paths = join(&strands, &[outline(0, 60000)]);
     let length: f64 = {
@@ -73,8 +73,14 @@ fn a_rung_leaves_the_length_as_it_is() {
         }
         sum
     };
-    assert!((length - (4.0 * 57000.0 + 4.0 * 51000.0)).abs() < 1.0);
-    assert!(paths[0].steps.iter().all(|step| (step.flow - 1.0).abs() < 1e-9));
+    // Both walls leave out half a bead; two steps are a bead long each.
+    assert!((length - (4.0 * 57000.0 + 4.0 * 51000.0) - SPACING).abs() < 1.0);
+    let halves = paths[0].steps.iter().filter(|step| (step.flow - 0.5).abs() < 1e-9).count();
+    assert_eq!(halves, 2);
+    assert!(
+        paths[0].steps.iter().all(|step| (step.flow - 1.0).abs() < 1e-9 || (step.flow - 0.5).abs() < 1e-9)
+    );
+    assert!((clay(&paths) - total(&strands)).abs() < 1.0);
 }
 
 #[test]

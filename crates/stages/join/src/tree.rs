@@ -3,8 +3,8 @@
 //! Strands that lie beside each other become a tree: each is visited from another, at a place where the two are a bead
 //! apart. A thread that goes round the tree lays everything once and never stops. There are three kinds of joint:
 //!
-//! * A **rung** joins a closed strand to one that runs beside it. Both leave out as much as the two steps over are long,
-//!   so the four corners of a square of beads are only connected the other way, and the clay lies where it lay.
+//! * A **rung** joins a closed strand to one that runs beside it. Both leave out half a bead, and the clay of that is what
+//!   the two steps over are made of.
 //! * An **arch** is an open strand with both ends beside the same walk, which goes on through it.
 //! * A **stem** goes to a strand and comes back the same way. What is gone over twice is two half beads side by side; the
 //!   clay of the way is taken from the strand.
@@ -428,7 +428,7 @@ impl<'a> Weave<'a> {
         }
     }
 
-    /// Joins a closed strand to one that runs beside it for a bead's width, if that is so here.
+    /// Joins a closed strand to one that runs beside it here, if the two are as far apart as beads are.
     fn rung(
         &mut self,
         tree: &mut Tree,
@@ -443,7 +443,7 @@ impl<'a> Weave<'a> {
         }
         let visit = &tree.visits[parent];
         let child = &self.strands[near.owner as usize];
-        let resume = leave + self.spacing;
+        let resume = leave + RUNG * self.spacing;
         if resume > visit.length || !visit.is_free(leave, resume) {
             return;
         }
@@ -453,10 +453,10 @@ impl<'a> Weave<'a> {
         let whole = child.length();
         let ahead = child.wrapped(other.along - near.along);
         let (short, forward) = if ahead <= whole / 2.0 { (ahead, false) } else { (whole - ahead, true) };
-        let even = |length: f64| (length / self.spacing - 1.0).abs() <= tolerance;
+        let even = |length: f64, beads: f64| (length / (beads * self.spacing) - 1.0).abs() <= tolerance;
         let (from, to) = (self.place(visit, leave), back);
         let (enter, exit) = (child.at(near.along), child.at(other.along));
-        if !(even(short) && even(near.distance) && even(other.distance))
+        if !(even(short, RUNG) && even(near.distance, 1.0) && even(other.distance, 1.0))
             || whole < 3.0 * self.spacing
             || self.outlines.is_crossed(from, enter)
             || self.outlines.is_crossed(exit, to)
@@ -470,7 +470,7 @@ impl<'a> Weave<'a> {
             (self.laid(visit, leave.max(again), resume), self.laid(visit, leave, resume.min(again)));
         let left_out = child.laid(first, first + short) + (once + twice / 2.0) * visit.share;
         let flow = left_out / (from.distance(enter) + exit.distance(to)).max(1.0);
-        if (flow - 1.0).abs() > MOST {
+        if (flow / RUNG - 1.0).abs() > MOST {
             return;
         }
         let strand = near.owner as usize;
@@ -502,7 +502,10 @@ impl<'a> Weave<'a> {
     }
 }
 
-/// The sides of the square that a rung makes of two strands are as long as beads are apart, or so much longer or shorter.
+/// How far apart the two steps over of a rung are, in bead spacings. The beads on both sides then reach so near to each other
+/// that their round ends leave no hole; what each step over has for itself is as wide, and its flow is that share of a bead.
+const RUNG: f64 = 0.5;
+/// What a rung leaves out is as long as that, and its steps as long as beads are apart, or so much longer or shorter.
 const EVEN: f64 = 0.15;
 /// The same where no place is better.
 const UNEVEN: f64 = 0.5;
