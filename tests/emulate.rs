@@ -94,7 +94,8 @@ fn slice_and_emulate_agree_about_the_time() {
     let report: Json = serde_json::from_str(&text_of(&room.path("cup.json"))).expect("JSON");
     let found = json(&room, &["emulate", "cup.gcode", "--machine", "clay", "--json"]);
     assert!((number(&found, "total_time") - number(&report, "time_s")).abs() < 1e-6);
-    assert!((number(&found, "deposition_length") - number(&report, "extruded_mm")).abs() < 1e-3);
+    // A bead of less clay than the last decimal of E is a travel by its letters: some microns of metres.
+    assert!((number(&found, "deposition_length") - number(&report, "extruded_mm")).abs() < 0.01);
     assert!((number(&found, "mass") / number(&report, "mass_g") - 1.0).abs() < 1e-3);
     assert_eq!(found["n_layers"], report["layers"]);
     // Nothing in a file of our own is doubtful.
