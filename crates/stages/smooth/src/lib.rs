@@ -54,14 +54,14 @@ fn smoothed(thread: &Thread, most: f64) -> Option<Thread> {
     let (mut index, mut any) = (0, false);
     while let Some((from, piece)) = pieces.get(index) {
         let here = done.end();
-        let jag = pieces.get(index..index + 3).and_then(|jag| Jag::of(jag, most));
+        let jag = Jag::find(&pieces[index..], most);
         match jag {
             Some(jag) => {
                 if here == *from {
                     done.stretches.push(Stretch { step: Move { to: jag.from, ..piece.step }, ..*piece });
                 }
                 done.stretches.push(jag.line);
-                (index, any) = (index + 2, true);
+                (index, any) = (index + jag.pieces, true);
             }
             None => {
                 // The rest of a stroke whose first half a shortcut has replaced, or all of it.
@@ -79,12 +79,23 @@ struct Jag {
     from: Point3,
     /// The shortcut to the middle of the second.
     line: Stretch,
+    /// How many pieces lie before the second.
+    pieces: usize,
 }
 
+/// So many pieces may lie between two strokes: one along the border of the infill, or some through the strip beside it.
+const JOINTS: usize = 6;
+
 impl Jag {
-    /// Nothing when the pieces are no strokes, or the shortcut would be too short or too long.
+    /// The jag that the first of some pieces begins.
+    fn find(pieces: &[(Point3, Stretch)], most: f64) -> Option<Self> {
+        let longest = pieces.len().min(JOINTS + 2);
+        (3..=longest).find_map(|count| Self::of(&pieces[..count], most))
+    }
+
+    /// Nothing when the first and the last piece are no strokes, or the shortcut would be too short or too long.
     fn of(pieces: &[(Point3, Stretch)], most: f64) -> Option<Self> {
-        let [first, joint, second] = pieces else { return None };
+        let [first, joints @ .., second] = pieces else { return None };
         let is_infill =
             |piece: &Stretch| piece.feature() == Feature::Infill && piece.step.extrusion.is_none();
         if !pieces.iter().all(|(_, piece)| is_infill(piece)) || cosine(first, second)? > BACK {
@@ -92,7 +103,10 @@ impl Jag {
         }
         let (from, to) = (middle(first), middle(second));
         let straight = Move::to(to).length(from);
-        let ways = [(first, 0.5), (joint, 1.0), (second, 0.5)];
+        let ways: Vec<(&(Point3, Stretch), f64)> = [(first, 0.5), (second, 0.5)]
+            .into_iter()
+            .chain(joints.iter().map(|joint| (joint, 1.0)))
+            .collect();
         let long: f64 = ways.iter().map(|(piece, share)| length(piece) * share).sum();
         if straight < 1.0 || long - straight >= most || straight >= LONGEST * most {
             return None;
@@ -104,7 +118,11 @@ impl Jag {
             ways.iter().map(|(piece, share)| Some(length(piece) * share / feed(&piece.1)?)).sum();
         let feed = time.and_then(|time| Feed::from_mm_per_s(straight / time)).or(second.1.step.feed);
         let flow = Ratio::from_f64(clay / straight)?;
-        Some(Self { from, line: Stretch { step: Move { feed, ..Move::to(to) }, flow, ..second.1 } })
+        Some(Self {
+            from,
+            line: Stretch { step: Move { feed, ..Move::to(to) }, flow, ..second.1 },
+            pieces: joints.len() + 1,
+        })
     }
 }
 
