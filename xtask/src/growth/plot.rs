@@ -71,6 +71,12 @@ fn steps(low: f64, high: f64) -> Vec<f64> {
     all.filter(|step| (low * 0.999..=high * 1.001).contains(step)).collect()
 }
 
+/// The number of a step, beside an axis.
+fn number(svg: &mut String, x: f64, y: f64, anchor: &str, step: f64) {
+    let step = written(step);
+    let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" text-anchor=\"{anchor}\">{step}</text>");
+}
+
 /// A number as it stands at an axis: with k and M, and no more digits than it needs.
 fn written(value: f64) -> String {
     let (value, unit) = match value {
@@ -144,25 +150,14 @@ impl Plot {
             let at = x.at(step);
             let _ = writeln!(svg, "<path d=\"M{at:.1} {:.1}V{:.1}\" stroke=\"#ddd\"/>", y.from, y.to);
             if numbered {
-                let _ = writeln!(
-                    svg,
-                    "<text x=\"{at:.1}\" y=\"{:.1}\" text-anchor=\"middle\">{}</text>",
-                    y.from + 17.0,
-                    written(step)
-                );
+                number(svg, at, y.from + 17.0, "middle", step);
             }
         }
         for (step, numbered) in y.ticks() {
             let at = y.at(step);
             let _ = writeln!(svg, "<path d=\"M{:.1} {at:.1}H{:.1}\" stroke=\"#ddd\"/>", x.from, x.to);
             if numbered {
-                let _ = writeln!(
-                    svg,
-                    "<text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-                    x.from - 7.0,
-                    at + 4.0,
-                    written(step)
-                );
+                number(svg, x.from - 7.0, at + 4.0, "end", step);
             }
         }
         let (middle, half) = (f64::midpoint(x.from, x.to), f64::midpoint(y.from, y.to));

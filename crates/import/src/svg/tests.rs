@@ -23,6 +23,16 @@ fn layers(text: &str) -> Vec<(f64, Loops)> {
         .collect()
 }
 
+/// The part that stages.md §1 draws in both forms: a plate with a hole, and a whole one upon it.
+fn assert_is_the_part_of_the_specification(text: &str) {
+    let outer = vec![(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
+    let hole = vec![(3.0, 3.0), (3.0, 5.0), (5.0, 5.0), (5.0, 3.0)];
+    assert_eq!(layers(text), [(0.5, vec![outer.clone(), hole]), (1.5, vec![outer])]);
+    let facts = drawing(text).expect("a drawing").slices.facts;
+    assert_eq!(facts.layer_height.map(|height| height.mm()), Some(1.0));
+    assert_eq!(facts.bead_width.map(|width| width.mm()), Some(2.0));
+}
+
 fn from_least(mut ring: Ring) -> Vec<(f64, f64)> {
     let least = (0..ring.0.len()).min_by_key(|index| ring.0[*index]).unwrap_or(0);
     ring.0.rotate_left(least);
@@ -67,13 +77,8 @@ fn plain_coordinates_are_taken_as_they_are() {
  <g beginningOfControlSection="true"><g id="z:9"><rect width="1" height="1"/></g></g>
  <g id="z:9"><rect width="1" height="1"/></g>
 </svg>"#;
-    let outer = vec![(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
-    let hole = vec![(3.0, 3.0), (3.0, 5.0), (5.0, 5.0), (5.0, 3.0)];
     // In the example nothing is transformed for viewers, and nothing follows the layers: both make no difference.
-    assert_eq!(layers(text), [(0.5, vec![outer.clone(), hole]), (1.5, vec![outer])]);
-    let facts = drawing(text).expect("a drawing").slices.facts;
-    assert_eq!(facts.layer_height.map(|height| height.mm()), Some(1.0));
-    assert_eq!(facts.bead_width.map(|width| width.mm()), Some(2.0));
+    assert_is_the_part_of_the_specification(text);
 }
 
 /// The older form, stages.md §1.2: what is said of the part stands in a script, and a layer with a bridge has a comment.
@@ -101,12 +106,7 @@ fn the_drawing_of_the_seed_has_plain_coordinates_too() {
   <path transform="scale(3.7, -3.7) translate(0, 0)" d="M 0.0 0.0 L 8.0 0.0 L 8.0 8.0 L 0.0 8.0 z"/>
  </g>
 </svg>"#;
-    let outer = vec![(0.0, 0.0), (8.0, 0.0), (8.0, 8.0), (0.0, 8.0)];
-    let hole = vec![(3.0, 3.0), (3.0, 5.0), (5.0, 5.0), (5.0, 3.0)];
-    assert_eq!(layers(text), [(0.5, vec![outer.clone(), hole]), (1.5, vec![outer])]);
-    let facts = drawing(text).expect("a drawing").slices.facts;
-    assert_eq!(facts.layer_height.map(|height| height.mm()), Some(1.0));
-    assert_eq!(facts.bead_width.map(|width| width.mm()), Some(2.0));
+    assert_is_the_part_of_the_specification(text);
     assert_eq!(remarks(text), "");
     // A script that knows nothing of layers leaves a drawing what it is.
     assert_ne!(layers(&text.replace("layerThickness", "zoom")), layers(text));
